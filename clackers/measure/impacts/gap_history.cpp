@@ -57,31 +57,25 @@ std::vector<std::size_t> every(const model::Trajectory& history, std::size_t str
   return rows;
 }
 
-GapHistory with_gaps(const model::Trajectory& history, const model::Contact<>& contact,
-                     std::vector<std::size_t> rows) {
-  GapHistory gaps;
-  gaps.row = std::move(rows);
-  const auto n = gaps.row.size();
-  for (auto* column :
-       {&gaps.t, &gaps.g, &gaps.before, &gaps.after, &gaps.acceleration, &gaps.noise})
-    column->assign(n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    gaps.t[i] = history.t[gaps.row[i]];
-    gaps.g[i] = contact.direction.dot(row_of(history.u, gaps.row[i], history.dof)) - contact.gap;
-  }
-  return gaps;
+GapRow gap_row(const model::Trajectory& history, const model::Contact<>& contact, std::size_t row) {
+  return {row,
+          history.t[row],
+          contact.direction.dot(row_of(history.u, row, history.dof)) - contact.gap,
+          0.0,
+          0.0,
+          0.0,
+          0.0};
 }
 
 // u(t - h) = u - h v + h^2 (a(t) / 3 + a(t - h) / 6) where a is straight, solved for v, and the
 // same forward; off by h^3 a'' / 24.
-void find_rates(GapHistory& gaps) {
-  const auto n = gaps.size();
-  gaps.before.front() = gaps.after.back() = unknown;
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double h = gaps.length(i), slope = (gaps.g[i + 1] - gaps.g[i]) / h;
-    const double here = gaps.acceleration[i], next = gaps.acceleration[i + 1];
-    gaps.after[i] = slope - h * (here / 3.0 + next / 6.0);
-    gaps.before[i + 1] = slope + h * (next / 3.0 + here / 6.0);
+void find_rates(std::vector<GapRow>& gaps) {
+  gaps.front().before = gaps.back().after = unknown;
+  for (std::size_t i = 0; i + 1 < gaps.size(); ++i) {
+    auto &here = gaps[i], &next = gaps[i + 1];
+    const double h = next.t - here.t, slope = (next.g - here.g) / h;
+    here.after = slope - h * (here.acceleration / 3.0 + next.acceleration / 6.0);
+    next.before = slope + h * (next.acceleration / 3.0 + here.acceleration / 6.0);
   }
 }
 
@@ -91,17 +85,17 @@ void find_rates(GapHistory& gaps) {
 constexpr std::size_t noise_block = 4096;
 constexpr double noise_factor = 8.0;
 
-double find_noise(GapHistory& gaps) {
+double find_noise(std::vector<GapRow>& gaps) {
   const auto n = gaps.size();
   std::vector<double> all, block;
   for (std::size_t from = 0; from < n; from += noise_block) {
     const auto to = std::min(n, from + noise_block);
     block.clear();
     for (auto i = std::max<std::size_t>(from, 1); i < std::min(to, n - 1); ++i)
-      block.push_back(std::abs(gaps.after[i] - gaps.before[i]));
+      block.push_back(std::abs(gaps[i].after - gaps[i].before));
     all.insert(all.end(), block.begin(), block.end());
-    std::fill(gaps.noise.begin() + std::ptrdiff_t(from), gaps.noise.begin() + std::ptrdiff_t(to),
-              block.empty() ? 0.0 : noise_factor * median(block));
+    const double noise = block.empty() ? 0.0 : noise_factor * median(block);
+    for (auto i = from; i < to; ++i) gaps[i].noise = noise;
   }
   return all.empty() ? 0.0 : median(std::move(all));
 }
@@ -109,7 +103,9 @@ double find_noise(GapHistory& gaps) {
 }  // namespace
 
 double GapHistory::contact_change(std::size_t i) const {
-  return after[i + 1] - before[i] - 0.5 * length(i) * (acceleration[i] + acceleration[i + 1]);
+  const auto here = *rows_[i], next = *rows_[i + 1];
+  return next.after - here.before -
+         0.5 * (next.t - here.t) * (here.acceleration + next.acceleration);
 }
 
 // The trapezoidal rule is off by h^3 a'' / 12, the two rates from displacements by h^3 a'' / 24
@@ -119,51 +115,55 @@ double GapHistory::uncertainty(std::size_t i) const {
   double bend = 0.0;
   for (const auto middle : {i, i + 1})
     if (middle > 0 && middle + 1 < size())
-      bend = std::max(bend, std::abs(acceleration[middle - 1] - 2.0 * acceleration[middle] +
-                                     acceleration[middle + 1]));
-  return 0.25 * length(i) * bend + std::max(noise[i], noise[i + 1]);
+      bend = std::max(bend,
+                      std::abs(rows_[middle - 1]->acceleration - 2.0 * rows_[middle]->acceleration +
+                               rows_[middle + 1]->acceleration));
+  return 0.25 * length(i) * bend + std::max(rows_[i]->noise, rows_[i + 1]->noise);
 }
 
 GapHistory gap_history_from_velocities(const model::Trajectory& history, const FreeMotion& motion,
                                        const model::Contact<>& contact) {
-  std::vector<std::size_t> rows(history.t.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
-  auto gaps = with_gaps(history, contact, std::move(rows));
-  RelativeAcceleration acceleration(motion, contact);
   const VectorXd size = contact.direction.cwiseAbs();
   VectorXd v(history.dof);
   double largest = 0.0;
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
+  for (std::size_t i = 0; i < history.t.size(); ++i) {
     v = row_of(history.v, i, history.dof);
-    gaps.before[i] = gaps.after[i] = contact.direction.dot(v);
-    gaps.acceleration[i] = acceleration(gaps.t[i], row_of(history.u, i, history.dof), v);
-    // Six digits are right to half a unit of the last, 5e-6 of the number; a difference has two.
-    gaps.noise[i] = 1e-5 * size.dot(v.cwiseAbs());
-    largest = std::max(largest, std::abs(gaps.before[i]));
+    largest = std::max(largest, std::abs(contact.direction.dot(v)));
   }
-  for (double& noise : gaps.noise) noise += resting_rate * largest;
-  return gaps;
+  const auto make = [&history, &contact, size, v, largest,
+                     acceleration = RelativeAcceleration(motion, contact)](
+                        std::size_t first, std::size_t count, GapRow* to) mutable {
+    for (auto i = first; i < first + count; ++i, ++to) {
+      *to = gap_row(history, contact, i);
+      v = row_of(history.v, i, history.dof);
+      to->before = to->after = contact.direction.dot(v);
+      to->acceleration = acceleration(to->t, row_of(history.u, i, history.dof), v);
+      // Six digits are right to half a unit of the last, 5e-6 of the number; a difference has two.
+      to->noise = 1e-5 * size.dot(v.cwiseAbs()) + resting_rate * largest;
+    }
+  };
+  return {history.t.size(), make};
 }
 
 GapHistory gap_history_from_displacements(const model::Trajectory& history,
                                           const FreeMotion& motion,
                                           const model::Contact<>& contact) {
   RelativeAcceleration acceleration(motion, contact);
-  GapHistory best;
+  std::vector<GapRow> best;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t stride = 1;; stride *= 2) {
-    auto gaps = with_gaps(history, contact, every(history, stride));
+    std::vector<GapRow> gaps;
+    for (const auto row : every(history, stride)) gaps.push_back(gap_row(history, contact, row));
     const auto n = gaps.size();
     if (n < (stride == 1 ? 3u : 32u)) break;
     VectorXd v(history.dof);
     for (std::size_t i = 0; i < n; ++i) {
       // Damping is all that asks for a velocity here: the mean slope around the row is enough.
-      const auto left = i == 0 ? 0 : i - 1, right = std::min(i + 1, n - 1);
-      v = (row_of(history.u, gaps.row[right], history.dof) -
-           row_of(history.u, gaps.row[left], history.dof)) /
-          (gaps.t[right] - gaps.t[left]);
-      gaps.acceleration[i] =
-          acceleration(gaps.t[i], row_of(history.u, gaps.row[i], history.dof), v);
+      const auto &left = gaps[i == 0 ? 0 : i - 1], &right = gaps[std::min(i + 1, n - 1)];
+      v = (row_of(history.u, right.row, history.dof) - row_of(history.u, left.row, history.dof)) /
+          (right.t - left.t);
+      gaps[i].acceleration =
+          acceleration(gaps[i].t, row_of(history.u, gaps[i].row, history.dof), v);
     }
     find_rates(gaps);
     const double disagreement = find_noise(gaps);
@@ -173,7 +173,10 @@ GapHistory gap_history_from_displacements(const model::Trajectory& history,
       best = std::move(gaps);
     }
   }
-  return best;
+  const auto size = best.size();
+  return {size, [best = std::move(best)](std::size_t first, std::size_t count, GapRow* to) {
+            std::copy_n(best.begin() + std::ptrdiff_t(first), count, to);
+          }};
 }
 
 }  // namespace clackers::measure

@@ -49,15 +49,15 @@ class ContactScan {
 
   // Whether the contact strikes between rows i and i + 1.
   bool strikes(std::size_t i) const {
-    const double closing = -gaps_.before[i];
+    const double closing = -gaps_[i].before;
     if (!(closing > 0.0)) return false;  // also where it is not known
     if (!(gaps_.contact_change(i) > 0.5 * closing + gaps_.uncertainty(i))) return false;
     // Near: closed within two steps at the speed of either side.
     double step = gaps_.length(i);
     if (i > 0) step = std::max(step, gaps_.length(i - 1));
     if (i + 2 < gaps_.size()) step = std::max(step, gaps_.length(i + 1));
-    const double speed = std::max(closing, std::abs(gaps_.after[i + 1]));
-    return std::min(gaps_.g[i], gaps_.g[i + 1]) <= 2.0 * step * speed;
+    const double speed = std::max(closing, std::abs(gaps_[i + 1].after));
+    return std::min(gaps_[i].g, gaps_[i + 1].g) <= 2.0 * step * speed;
   }
 
   // A slope over a jump belongs to neither side, so that without velocities a jump changes the rate
@@ -72,17 +72,17 @@ class ContactScan {
   Span whole(std::size_t i, std::size_t free) const {
     if (gaps_.length(i) == 0.0) return {i, i + 1, false};
     Span span{i, i + 1, false};
-    while (span.first > free && gaps_.g[span.first] < 0.0) --span.first;
-    const double closing = std::abs(gaps_.before[span.first]);
+    while (span.first > free && gaps_[span.first].g < 0.0) --span.first;
+    const double closing = std::abs(gaps_[span.first].before);
     const auto rests = [&](std::size_t row) {
-      return std::abs(gaps_.after[row]) <= gaps_.noise[row] + 1e-9 * closing;
+      return std::abs(gaps_[row].after) <= gaps_[row].noise + 1e-9 * closing;
     };
     while (span.last + 1 < gaps_.size()) {
       const double change = gaps_.contact_change(span.last),
                    uncertainty = gaps_.uncertainty(span.last);
       const bool rests_on = rests(span.last) && rests(span.last + 1);
-      const bool opens = gaps_.after[span.last] > 0.0;
-      const bool closed = gaps_.g[span.last] < 0.0 && !rests_on && (opens || change > uncertainty);
+      const bool opens = gaps_[span.last].after > 0.0;
+      const bool closed = gaps_[span.last].g < 0.0 && !rests_on && (opens || change > uncertainty);
       const bool goes_on = has_velocities_ && change > 0.1 * closing + uncertainty;
       if (!closed && !goes_on) break;
       ++span.last;
@@ -98,8 +98,8 @@ class ContactScan {
     for (auto i = span.first; i < span.last; ++i) {
       const bool is_first = i == span.first, is_last = i + 1 == span.last;
       // Rates inside the impact cancel in the sum over its steps.
-      change += (is_last ? gaps_.after[i + 1] : 0.0) - (is_first ? gaps_.before[i] : 0.0) -
-                0.5 * gaps_.length(i) * (gaps_.acceleration[i] + gaps_.acceleration[i + 1]);
+      change += (is_last ? gaps_[i + 1].after : 0.0) - (is_first ? gaps_[i].before : 0.0) -
+                0.5 * gaps_.length(i) * (gaps_[i].acceleration + gaps_[i + 1].acceleration);
       uncertainty += gaps_.uncertainty(i);
     }
     if (!(change > 0.5 * closing + uncertainty)) return {};
@@ -109,9 +109,9 @@ class ContactScan {
     found.impact.u = entries(before.u);
     found.impact.v_before = entries(before.v);
     found.impact.impulse = unknown;
-    const bool is_open = gaps_.g[span.last] >= 0.0;
+    const bool is_open = gaps_[span.last].g >= 0.0;
     if (span.penetrates && !is_open && span.last + 1 == gaps_.size()) {
-      found.end = gaps_.t[span.last];
+      found.end = gaps_[span.last].t;
       return found;
     }
     const auto after = released(span, before.t);
@@ -134,7 +134,7 @@ class ContactScan {
     const auto from = state(span.last, Side::after);
     if (!span.penetrates) return motion_.moved(from, t - from.t);
     const double back = gaps_.length(span.last - 1);
-    if (gaps_.g[span.last] < 0.0 || gaps_.g[span.last - 1] >= 0.0) return from;
+    if (gaps_[span.last].g < 0.0 || gaps_[span.last - 1].g >= 0.0) return from;
     return motion_.moved(from, root(from, -back));
   }
 
@@ -162,23 +162,23 @@ class ContactScan {
   FreeState state(std::size_t i, Side side) const {
     const auto u = displacement(i);
     if (has_velocities_)
-      return {gaps_.t[i], u,
+      return {gaps_[i].t, u,
               Eigen::Map<const VectorXd>(
-                  history_.v.data() + gaps_.row[i] * std::size_t(history_.dof), history_.dof)};
+                  history_.v.data() + gaps_[i].row * std::size_t(history_.dof), history_.dof)};
     // As in GapHistory, for each mass: the velocity that free motion has at this end of the step.
     const auto other = side == Side::before ? i - 1 : i + 1;
     const VectorXd there = displacement(other);
-    const double h = gaps_.t[i] - gaps_.t[other];
+    const double h = gaps_[i].t - gaps_[other].t;
     const VectorXd slope = (u - there) / h;
     VectorXd v = slope;
     for (int pass = 0; pass < 3; ++pass)
-      v = slope + h * (motion_.acceleration(gaps_.t[i], u, v) / 3.0 +
-                       motion_.acceleration(gaps_.t[other], there, 2.0 * slope - v) / 6.0);
-    return {gaps_.t[i], u, v};
+      v = slope + h * (motion_.acceleration(gaps_[i].t, u, v) / 3.0 +
+                       motion_.acceleration(gaps_[other].t, there, 2.0 * slope - v) / 6.0);
+    return {gaps_[i].t, u, v};
   }
 
   VectorXd displacement(std::size_t i) const {
-    return Eigen::Map<const VectorXd>(history_.u.data() + gaps_.row[i] * std::size_t(history_.dof),
+    return Eigen::Map<const VectorXd>(history_.u.data() + gaps_[i].row * std::size_t(history_.dof),
                                       history_.dof);
   }
 

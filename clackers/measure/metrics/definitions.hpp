@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -208,7 +209,7 @@ MetricValue measure_filled_graph_of_reference(const Comparison& comparison);
 /// A motion as a hybrid arc: one line for each flight j = 0, 1, ..., points (t/T, u/U, v/V) of all
 /// masses, T as in Comparison::impact_period(), U and V the largest true envelopes. Flights do
 /// not share their ends: the first ends with the left limits of an impact, the next starts with the
-/// right ones. Flights are made one after another, so that one alone is in memory.
+/// right ones.
 class HybridArc {
  public:
   /// Of the history, points at its rows and impacts. Its flights end and start at its own
@@ -220,8 +221,9 @@ class HybridArc {
   static HybridArc of_reference(const Comparison& comparison);
 
   std::size_t flights() const { return impacts_.size() + 1; }
-  /// The next flight, from the first one on; not more than there are.
-  Polyline next();
+  /// The next flight, from the first one on; not more than there are. Nothing where no row and no
+  /// limit stands in it.
+  std::optional<Polyline> next();
 
  private:
   // Vectors are empty where its limits are not known.
@@ -236,7 +238,6 @@ class HybridArc {
       : comparison_(comparison), u_(u), v_(v) {}
   bool is_inside(const Jump& impact, std::size_t row) const;
   bool is_before(const Jump& impact, std::size_t row) const;
-  void put(Polyline& line, double t, std::span<const double> u, std::span<const double> v) const;
 
   const Comparison& comparison_;
   std::span<const double> u_, v_;  // at the history's rows

@@ -14,45 +14,43 @@ struct Jump {
   double t, before, after;
 };
 
-// Rows (t, v) joined with jumps, both in order of time, every v scaled. A jump at the time of a row
-// comes before it or after it, whichever of its limits is that row's.
-class GraphBuilder {
- public:
-  // With a `cut` the line ends with the left limit of the last jump.
-  GraphBuilder(double period, std::span<const Jump> jumps, bool cut)
-      : period_(period), jumps_(jumps), cut_(cut && !jumps.empty()) {}
-
-  void row(double t, double v) {
-    if (cut_ && t >= jumps_.back().t) return;
-    while (next_ < jumps_.size() && jumps_[next_].t < t) jump();
-    if (next_ < jumps_.size() && jumps_[next_].t == t &&
-        std::abs(v - jumps_[next_].after) < std::abs(v - jumps_[next_].before))
-      jump();
-    put(t, v);
+// Velocities at the history's rows, row-major (row, mass), joined with jumps in order of time, every
+// v of `mass` scaled. A jump at the time of a row comes before it or after it, whichever of its limits
+// is that row's. With a `cut` the line ends with the left limit of the last jump.
+Polyline graph(const Comparison& comparison, std::size_t mass, std::span<const double> velocities,
+               std::span<const Jump> jumps, bool cut) {
+  const auto& t = comparison.history().t;
+  const double period = comparison.impact_period(), scale = comparison.v_envelope()[mass];
+  const auto v = velocities.subspan(mass);
+  cut = cut && !jumps.empty();
+  const auto first_from = [&t](std::size_t row, double time) {
+    return std::size_t(std::lower_bound(t.begin() + std::ptrdiff_t(row), t.end(), time) -
+                       t.begin());
+  };
+  const auto last = cut ? first_from(0, jumps.back().t) : t.size();
+  std::vector<std::size_t> places;
+  std::vector<double> limits;
+  std::size_t row = 0;
+  for (const auto& jump : jumps) {
+    row = std::min(last, first_from(row, jump.t));
+    const auto is_after = [&](double now) {
+      return std::abs(now - jump.after) < std::abs(now - jump.before);
+    };
+    const auto is_here = [&] { return row < last && t[row] == jump.t; };
+    while (is_here() && !is_after(v[row * comparison.dof()] / scale)) ++row;
+    const bool is_cut = cut && &jump == &jumps.back();
+    places.insert(places.end(), is_cut ? 1 : 2, row);
+    limits.insert(limits.end(), {jump.t / period, jump.before});
+    if (!is_cut) limits.insert(limits.end(), {jump.t / period, jump.after});
+    if (is_here()) ++row;  // of one time each row has one jump before it
   }
-  Polyline finish() && {
-    while (next_ < jumps_.size()) jump();
-    return std::move(line_);
-  }
-  void reserve(std::size_t rows) { line_.points.reserve(2 * (rows + 2 * jumps_.size())); }
-
- private:
-  void jump() {
-    const auto& [t, before, after] = jumps_[next_++];
-    put(t, before);
-    if (!(cut_ && next_ == jumps_.size())) put(t, after);
-  }
-  void put(double t, double v) {
-    line_.points.push_back(t / period_);
-    line_.points.push_back(v);
-  }
-
-  double period_;
-  std::span<const Jump> jumps_;
-  bool cut_;
-  std::size_t next_ = 0;
-  Polyline line_;
-};
+  return LineOfRows{{{t.data(), 1, period}, {v.data(), comparison.dof(), scale}},
+                    0,
+                    last,
+                    std::move(places),
+                    std::move(limits)}
+      .line();
+}
 
 std::vector<Jump> reported_jumps(const Comparison& comparison, std::size_t mass, double scale) {
   std::vector<Jump> jumps;
@@ -98,28 +96,6 @@ bool last_true_is_alone(const Comparison& comparison, std::span<const Jump> jump
   return matches.empty() || matches.back().reference.t < jumps.back().t;
 }
 
-Polyline history_graph(const Comparison& comparison, std::size_t mass) {
-  const auto& history = comparison.history();
-  const double scale = comparison.v_envelope()[mass];
-  const auto jumps = reported_jumps(comparison, mass, scale);
-  GraphBuilder graph(comparison.impact_period(), jumps, last_found_is_alone(comparison));
-  graph.reserve(history.t.size());
-  for (std::size_t i = 0; i < history.t.size(); ++i)
-    graph.row(history.t[i], history.v[i * comparison.dof() + mass] / scale);
-  return std::move(graph).finish();
-}
-
-Polyline reference_graph(const Comparison& comparison, std::size_t mass) {
-  const auto& t = comparison.history().t;
-  const double scale = comparison.v_envelope()[mass];
-  const auto jumps = true_jumps(comparison, mass, scale);
-  GraphBuilder graph(comparison.impact_period(), jumps, last_true_is_alone(comparison, jumps));
-  graph.reserve(t.size());
-  for (std::size_t i = 0; i < t.size(); ++i)
-    graph.row(t[i], comparison.reference_v()[i * comparison.dof() + mass] / scale);
-  return std::move(graph).finish();
-}
-
 std::string graph_objection(const Comparison& comparison) {
   if (!comparison.has_velocities()) return "The history has no velocities.";
   for (const double scale : comparison.v_envelope())
@@ -158,7 +134,13 @@ MetricValue measured_or_not(const GraphDistances& found, std::vector<double> mas
 }  // namespace
 
 FilledGraphs filled_graphs(const Comparison& comparison, std::size_t mass) {
-  return {history_graph(comparison, mass), reference_graph(comparison, mass)};
+  const double scale = comparison.v_envelope()[mass];
+  const auto reported = reported_jumps(comparison, mass, scale);
+  const auto exact = true_jumps(comparison, mass, scale);
+  return {
+      graph(comparison, mass, comparison.history().v, reported, last_found_is_alone(comparison)),
+      graph(comparison, mass, comparison.reference_v(), exact,
+            last_true_is_alone(comparison, exact))};
 }
 
 MetricValue measure_filled_graph(const Comparison& comparison) {

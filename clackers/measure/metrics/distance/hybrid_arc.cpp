@@ -64,19 +64,32 @@ HybridArc HybridArc::of_reference(const Comparison& comparison) {
   return arc;
 }
 
-Polyline HybridArc::next() {
+std::optional<Polyline> HybridArc::next() {
   const auto n = comparison_.dof();
   const auto& t = comparison_.history().t;
-  Polyline flight{.dimension = 1 + 2 * n, .points = {}};
+  LineOfRows flight{{{t.data(), 1, comparison_.impact_period()}}, row_, row_};
+  for (std::size_t i = 0; i < n; ++i) {
+    flight.columns.push_back({u_.data() + i, n, comparison_.u_envelope()[i]});
+    flight.columns.push_back({v_.data() + i, n, comparison_.v_envelope()[i]});
+  }
+  const auto add = [&](std::size_t row, double time, const auto& u, const auto& v) {
+    flight.places.push_back(row);
+    flight.more.push_back(time / comparison_.impact_period());
+    for (std::size_t i = 0; i < n; ++i) {
+      flight.more.push_back(u[i] / comparison_.u_envelope()[i]);
+      flight.more.push_back(v[i] / comparison_.v_envelope()[i]);
+    }
+  };
   const auto* last = passed_ > 0 ? &impacts_[passed_ - 1] : nullptr;
-  if (last != nullptr && last->is_known()) put(flight, last->to, last->u, last->after);
   const auto* end = passed_ < impacts_.size() ? &impacts_[passed_] : nullptr;
   for (; row_ < t.size() && (end == nullptr || is_before(*end, row_)); ++row_)
-    if (last == nullptr || !is_inside(*last, row_))
-      put(flight, t[row_], u_.subspan(row_ * n, n), v_.subspan(row_ * n, n));
-  if (end != nullptr && end->is_known()) put(flight, end->from, end->u, end->before);
+    if (last != nullptr && is_inside(*last, row_)) flight.first = row_ + 1;
+  flight.last = row_;
+  if (last != nullptr && last->is_known()) add(flight.first, last->to, last->u, last->after);
+  if (end != nullptr && end->is_known()) add(row_, end->from, end->u, end->before);
   ++passed_;
-  return flight;
+  if (flight.first == row_ && flight.places.empty()) return {};
+  return std::move(flight).line();
 }
 
 // Whether a row stands between the two ends of an impact that takes several steps.
@@ -102,15 +115,6 @@ bool HybridArc::is_before(const Jump& impact, std::size_t row) const {
   return to_before <= to_after;
 }
 
-void HybridArc::put(Polyline& line, double t, std::span<const double> u,
-                    std::span<const double> v) const {
-  line.points.push_back(t / comparison_.impact_period());
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    line.points.push_back(u[i] / comparison_.u_envelope()[i]);
-    line.points.push_back(v[i] / comparison_.v_envelope()[i]);
-  }
-}
-
 MetricValue measure_hybrid_closeness(const Comparison& comparison) {
   if (auto reason = objection_to_arcs(comparison); !reason.empty())
     return not_measured(std::move(reason));
@@ -119,9 +123,9 @@ MetricValue measure_hybrid_closeness(const Comparison& comparison) {
   double epsilon = 0.0;
   for (std::size_t j = 0; j < flights; ++j) {
     const auto found = history.next(), expected = reference.next();
-    if (found.points.empty() || expected.points.empty())
+    if (!found || !expected)
       return not_measured(fmt::format("No row lies between impacts {} and {}.", j, j + 1));
-    for (const auto& [from, to] : {std::pair(&found, &expected), std::pair(&expected, &found)}) {
+    for (const auto& [from, to] : {std::pair(&*found, &*expected), {&*expected, &*found}}) {
       const auto distance = one_sided_distance(*from, *to, epsilon);
       if (!distance.complete) return not_measured(too_far_apart);
       epsilon = distance.value;

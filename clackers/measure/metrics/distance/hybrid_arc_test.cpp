@@ -36,9 +36,9 @@ TEST_F(HybridCloseness, FlightsEndAndStartWithTheLimitsOfImpacts) {
   auto reference_arc = HybridArc::of_reference(comparison);
   ASSERT_EQ(found_arc.flights(), 2u);
   ASSERT_EQ(reference_arc.flights(), 2u);
-  const Polyline found[] = {found_arc.next(), found_arc.next()};
-  const Polyline reference[] = {reference_arc.next(), reference_arc.next()};
-  ASSERT_EQ(found[0].dimension, 5u);
+  const Polyline found[] = {*found_arc.next(), *found_arc.next()};
+  const Polyline reference[] = {*reference_arc.next(), *reference_arc.next()};
+  ASSERT_EQ(found[0].dimension(), 5u);
   const auto last = found[0].point(found[0].size() - 1), next = found[1].point(0);
   EXPECT_NEAR(last[0], (0.5 * pi + 0.02) / pi, 1e-15);
   EXPECT_NEAR(last[1], std::cos(0.5 * pi + 0.02), 1e-15);
@@ -121,7 +121,7 @@ TEST_F(HybridCloseness, AnImpactDuringOneOfAnotherContactFollowsIt) {
   ASSERT_EQ(arc.flights(), 3u);
   double t = 0.0;
   for (std::size_t flight = 0; flight < 3; ++flight) {
-    const auto line = arc.next();
+    const auto line = *arc.next();
     for (std::size_t i = 0; i < line.size(); ++i) {
       EXPECT_GE(line.point(i)[0], t) << flight << ", " << i;
       t = line.point(i)[0];

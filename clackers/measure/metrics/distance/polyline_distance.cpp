@@ -8,6 +8,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "clackers/base/block_window.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/measure/metrics/distance/segment_distance.hpp"
 
@@ -19,10 +20,23 @@ constexpr std::size_t probes = 64;  // points that are measured first
 constexpr double most_looks = 64.0, least_most_looks = 1e6;
 constexpr int largest_exponent = 300;
 
-double largest_coordinate(const Polyline& line) {
+double largest_of(const std::vector<double>& coordinates) {
   double largest = 0.0;
-  for (const double x : line.points) largest = std::max(largest, std::abs(x));
+  for (const double x : coordinates) largest = std::max(largest, std::abs(x));
   return largest;
+}
+
+using PointWindow = BlockWindow<double>;
+
+// All coordinates times 2^exponent.
+PointWindow window(const Polyline& line, int exponent) {
+  return {line.size(), line.dimension(),
+          [&line, exponent](std::size_t first, std::size_t count, double* to) {
+            line.copy(first, count, to);
+            if (exponent == 0) return;
+            for (std::size_t i = 0; i < count * line.dimension(); ++i)
+              to[i] = std::ldexp(to[i], exponent);
+          }};
 }
 
 template <std::size_t Dimension>
@@ -31,11 +45,12 @@ class DistanceSearch {
                                    std::array<double, std::max<std::size_t>(Dimension, 1)>>;
 
  public:
-  DistanceSearch(const Polyline& from, const Polyline& to, double at_least, double largest)
-      : from_(from),
-        to_(to),
+  DistanceSearch(const Polyline& from, const Polyline& to, int exponent, double at_least,
+                 double largest)
+      : from_(window(from, exponent)),
+        to_(window(to, exponent)),
         segments_(std::max<std::size_t>(to.size(), 2) - 1),
-        measure_(from.dimension, 0x1p-100 * largest),
+        measure_(from.dimension(), 0x1p-100 * largest),
         value_(at_least),
         // Differences of coordinates and products with s round by a few units of the coordinates.
         rounding_(8.0 * std::numeric_limits<double>::epsilon() * largest),
@@ -62,15 +77,9 @@ class DistanceSearch {
     std::size_t segment;
   };
 
-  const double* point(std::size_t i) const {
-    return from_.points.data() + i * measure_.dimension();
-  }
-  const double* start(std::size_t segment) const {
-    return to_.points.data() + segment * measure_.dimension();
-  }
-  const double* finish(std::size_t segment) const {
-    return start(std::min(segment + 1, to_.size() - 1));
-  }
+  const double* point(std::size_t i) { return from_[i]; }
+  const double* start(std::size_t segment) { return to_[segment]; }
+  const double* finish(std::size_t segment) { return start(std::min(segment + 1, to_.size() - 1)); }
   // What counts as within the largest distance seen.
   double radius() const { return value_ * (1.0 + relative_excess) + rounding_; }
 
@@ -172,7 +181,7 @@ class DistanceSearch {
     return point;
   }
 
-  const Polyline &from_, &to_;
+  PointWindow from_, to_;
   std::size_t segments_;  // a line of one point counts as one segment of length 0
   SegmentDistance<Dimension> measure_;
   double value_, rounding_;
@@ -181,53 +190,87 @@ class DistanceSearch {
   std::size_t at_time_ = 0;  // the segment at the time of the point of `from`
 };
 
-void require_line(const Polyline& line) {
-  if (line.dimension == 0 || line.points.empty() || line.points.size() % line.dimension != 0)
+}  // namespace
+
+Polyline::Polyline(std::size_t dimension, std::vector<double> points)
+    : Polyline(dimension, dimension == 0 ? 0 : points.size() / dimension, largest_of(points), {}) {
+  if (size_ == 0 || points.size() % dimension != 0)
     throw InputError(fmt::format("polyline: {} coordinates of points with {}; allowed: one point "
                                  "or more.",
-                                 line.points.size(), line.dimension),
+                                 points.size(), dimension),
                      "wrong-size");
-  for (std::size_t i = 1; i < line.size(); ++i)
-    if (!(line.point(i)[0] >= line.point(i - 1)[0]))
-      refuse("polyline", "time of a point", line.point(i)[0], "times that do not descend");
+  for (std::size_t i = dimension; i < points.size(); i += dimension)
+    if (!(points[i] >= points[i - dimension]))
+      refuse("polyline", "time of a point", points[i], "times that do not descend");
+  points_ = [dimension, all = std::move(points)](std::size_t first, std::size_t count, double* to) {
+    std::copy_n(all.data() + first * dimension, count * dimension, to);
+  };
 }
 
-Polyline scaled(Polyline line, int exponent) {
-  for (double& x : line.points) x = std::ldexp(x, exponent);
-  return line;
+Polyline LineOfRows::line() && {
+  const auto dimension = columns.size(), size = last - first + places.size();
+  double largest = largest_of(more);
+  for (const auto& column : columns) {
+    double most = 0.0;
+    for (auto row = first; row < last; ++row)
+      most = std::max(most, std::abs(column.first[row * column.stride]));
+    largest = std::max(largest, most / column.scale);  // division keeps the order
+  }
+  for (std::size_t k = 0; k < places.size(); ++k) places[k] += k - first;  // numbers of points
+  const auto make = [dimension, rows = std::move(*this)](std::size_t from, std::size_t count,
+                                                         double* to) {
+    const auto& numbers = rows.places;
+    auto k = std::size_t(std::ranges::lower_bound(numbers, from) - numbers.begin());
+    for (auto i = from; i < from + count;) {
+      const auto next = k < numbers.size() ? std::min(numbers[k], from + count) : from + count;
+      const auto row = rows.first + i - k, run = next - i;
+      for (std::size_t c = 0; c < dimension; ++c) {
+        const auto [column, stride, scale] = rows.columns[c];
+        for (std::size_t j = 0; j < run; ++j)
+          to[j * dimension + c] = column[(row + j) * stride] / scale;
+      }
+      to += run * dimension;
+      i = next;
+      if (i == from + count) break;
+      to = std::copy_n(rows.more.data() + dimension * k++, dimension, to);
+      ++i;
+    }
+  };
+  return {dimension, size, largest, make};
 }
 
-PolylineDistance search(const Polyline& from, const Polyline& to, double at_least) {
-  const double largest = std::max(largest_coordinate(from), largest_coordinate(to));
-  if (int exponent = 0; largest > 0.0 && (std::frexp(largest, &exponent), true) &&
-                        std::abs(exponent) > largest_exponent) {
-    auto found =
-        search(scaled(from, -exponent), scaled(to, -exponent), std::ldexp(at_least, -exponent));
+std::vector<double> Polyline::point(std::size_t i) const {
+  std::vector<double> coordinates(dimension_);
+  points_(i, 1, coordinates.data());
+  return coordinates;
+}
+
+PolylineDistance one_sided_distance(const Polyline& from, const Polyline& to, double at_least) {
+  if (from.dimension() != to.dimension())
+    throw InputError(
+        fmt::format("polyline: lines of {} and {} coordinates; allowed: equal numbers.",
+                    from.dimension(), to.dimension()),
+        "wrong-size");
+  const double largest = std::max(from.largest(), to.largest());
+  int exponent = 0;
+  if (largest > 0.0) std::frexp(largest, &exponent);
+  if (std::abs(exponent) <= largest_exponent) exponent = 0;
+  const auto search = [&](auto dimension) {
+    auto found = DistanceSearch<dimension>(from, to, -exponent, std::ldexp(at_least, -exponent),
+                                           std::ldexp(largest, -exponent))
+                     .run();
     found.value = std::ldexp(found.value, exponent);
     found.bound = std::ldexp(found.bound, exponent);
     return found;
-  }
-  switch (from.dimension) {
+  };
+  switch (from.dimension()) {
     case 2:
-      return DistanceSearch<2>(from, to, at_least, largest).run();
+      return search(std::integral_constant<std::size_t, 2>());
     case 5:
-      return DistanceSearch<5>(from, to, at_least, largest).run();
+      return search(std::integral_constant<std::size_t, 5>());
     default:
-      return DistanceSearch<0>(from, to, at_least, largest).run();
+      return search(std::integral_constant<std::size_t, 0>());
   }
-}
-
-}  // namespace
-
-PolylineDistance one_sided_distance(const Polyline& from, const Polyline& to, double at_least) {
-  require_line(from);
-  require_line(to);
-  if (from.dimension != to.dimension)
-    throw InputError(
-        fmt::format("polyline: lines of {} and {} coordinates; allowed: equal numbers.",
-                    from.dimension, to.dimension),
-        "wrong-size");
-  return search(from, to, at_least);
 }
 
 PolylineDistance hausdorff_distance(const Polyline& line, const Polyline& other) {

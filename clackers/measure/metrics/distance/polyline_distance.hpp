@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <span>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace clackers::measure {
@@ -9,14 +11,44 @@ namespace clackers::measure {
 /// Points joined by straight segments, in a space whose first coordinate is a (scaled) time. Times
 /// do not descend; two points of one time are joined as well, by a vertical segment. All
 /// coordinates are finite.
-struct Polyline {
-  std::size_t dimension = 2;
-  std::vector<double> points;  ///< row-major (point, coordinate)
+class Polyline {
+ public:
+  /// Writes points, row-major (point, coordinate): `count` of them from number `first` on.
+  using Points = std::function<void(std::size_t first, std::size_t count, double* to)>;
 
-  std::size_t size() const { return points.size() / dimension; }
-  std::span<const double> point(std::size_t i) const {
-    return {points.data() + i * dimension, dimension};
-  }
+  /// Of `size` points, one or more, which are made block by block whenever they are needed: a long line
+  /// takes no memory. `largest` is their largest coordinate, by size.
+  Polyline(std::size_t dimension, std::size_t size, double largest, Points points)
+      : dimension_(dimension), size_(size), largest_(largest), points_(std::move(points)) {}
+  /// Of points in memory. Throws InputError for none and for times that descend.
+  Polyline(std::size_t dimension, std::vector<double> points);
+
+  std::size_t dimension() const { return dimension_; }
+  std::size_t size() const { return size_; }
+  double largest() const { return largest_; }
+  void copy(std::size_t first, std::size_t count, double* to) const { points_(first, count, to); }
+  std::vector<double> point(std::size_t i) const;
+
+ private:
+  std::size_t dimension_, size_;
+  double largest_;
+  Points points_;
+};
+
+/// A line whose coordinates are numbers of a table over scales, row by row, with more points between.
+struct LineOfRows {
+  struct Column {
+    const double* first;  ///< of row 0
+    std::size_t stride;
+    double scale;
+  };
+  std::vector<Column> columns;  ///< the time first
+  std::size_t first, last;      ///< rows from the first to before the last
+  /// Number k of the other points, row-major and scaled, stands before row places[k]; these ascend.
+  std::vector<std::size_t> places{};
+  std::vector<double> more{};
+
+  Polyline line() &&;
 };
 
 /// A one-sided distance.
@@ -52,8 +84,7 @@ inline constexpr auto too_far_apart =
 /// Source: early breaking, A. A. Taha, A. Hanbury, IEEE Trans. Pattern Anal. Mach. Intell. 37 (11),
 /// 2153-2163 (2015); the convexity of the bound is elementary.
 ///
-/// Throws InputError unless both lines have the same dimension, at least one point, and times that
-/// do not descend.
+/// Throws InputError unless both lines have the same dimension.
 PolylineDistance one_sided_distance(const Polyline& from, const Polyline& to,
                                     double at_least = 0.0);
 

@@ -13,8 +13,17 @@
 namespace clackers::measure {
 namespace {
 
-Polyline line(std::initializer_list<std::pair<double, double>> points) {
-  Polyline made;
+struct Line {
+  std::size_t dimension = 2;
+  std::vector<double> points{};
+
+  std::size_t size() const { return points.size() / dimension; }
+  const double* point(std::size_t i) const { return points.data() + i * dimension; }
+  operator Polyline() const { return {dimension, points}; }
+};
+
+Line line(std::initializer_list<std::pair<double, double>> points) {
+  Line made;
   for (const auto& [t, x] : points) made.points.insert(made.points.end(), {t, x});
   return made;
 }
@@ -90,7 +99,7 @@ TEST(PolylineDistance, TakesLinesOfOnePoint) {
 TEST(PolylineDistance, SeesLongSegmentsBetweenShortOnesWhereverTheyStand) {
   // One after another each segment is the long one, so that it also joins two blocks of the tree.
   for (int gap = 0; gap < 20; ++gap) {
-    Polyline to;
+    Line to;
     double t = 0.0, before = 0.0;
     for (int i = 0; i <= 20; ++i) {
       to.points.insert(to.points.end(), {t, 0.0});
@@ -119,7 +128,7 @@ double to_segment(const double* p, const double* q0, const double* q1, std::size
   return at(low);
 }
 
-double brute_force(const Polyline& from, const Polyline& to, int parts) {
+double brute_force(const Line& from, const Line& to, int parts) {
   const auto d = from.dimension;
   double farthest = 0.0;
   std::vector<double> p(d);
@@ -129,16 +138,15 @@ double brute_force(const Polyline& from, const Polyline& to, int parts) {
         p[c] = from.point(i)[c] + part * (from.point(i + 1)[c] - from.point(i)[c]) / parts;
       double nearest = INFINITY;
       for (std::size_t k = 0; k + 1 < to.size(); ++k)
-        nearest =
-            std::min(nearest, to_segment(p.data(), to.point(k).data(), to.point(k + 1).data(), d));
+        nearest = std::min(nearest, to_segment(p.data(), to.point(k), to.point(k + 1), d));
       farthest = std::max(farthest, nearest);
     }
   return farthest;
 }
 
-Polyline random_line(std::mt19937& generator, std::size_t dimension, int points) {
+Line random_line(std::mt19937& generator, std::size_t dimension, int points) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
-  Polyline made{.dimension = dimension, .points = {}};
+  Line made{.dimension = dimension, .points = {}};
   double t = 0.0;
   for (int i = 0; i < points; ++i) {
     if (any(generator) > -0.5) t += 0.2 * (1.0 + any(generator));  // one in four stands still
@@ -169,7 +177,7 @@ TEST(PolylineDistance, AgreesWithEveryPairWhereOneLineFollowsTheOther) {
   // rest.
   for (const double shift : {0.002, 0.008})
     for (const double off : {0.003, 0.05}) {
-      Polyline one, other;
+      Line one, other;
       for (int i = 0; i <= 50; ++i) {
         const double t = 0.02 * i;
         one.points.insert(one.points.end(), {t, std::sin(9.0 * t)});
@@ -192,7 +200,7 @@ TEST(PolylineDistance, ScalesWithCoordinatesOfAnySize) {
   std::mt19937 generator(3);
   const auto one = random_line(generator, 3, 30), other = random_line(generator, 3, 20);
   const double value = one_sided_distance(one, other).value;
-  const auto times = [](Polyline line, int exponent) {
+  const auto times = [](Line line, int exponent) {
     for (double& x : line.points) x = std::ldexp(x, exponent);
     return line;
   };
@@ -212,7 +220,7 @@ TEST(PolylineDistance, SubnormalSegmentsOfALineAreCovered) {
 TEST(PolylineDistance, SearchOfLinesFarApartIsGivenUp) {
   // Every other point is farther away than all before it, and all of the other line is nearer in
   // time than that.
-  Polyline one, other;
+  Line one, other;
   for (int i = 0; i < 100000; ++i) {
     one.points.insert(one.points.end(), {1e-3 * i, i % 2 == 0 ? 1e3 + 1e-2 * i : 0.0});
     other.points.insert(other.points.end(), {1e-3 * i, 0.0});
@@ -245,12 +253,43 @@ TEST(SegmentDistance, IsTheMinimumOverTheSegmentAndDecidesAlike) {
   }
 }
 
+TEST(PolylineDistance, LinesOfRowsAreThoseOfTheirPoints) {
+  constexpr std::size_t first = 3, last = 1700, stride = 2;
+  std::vector<double> t, x;
+  for (std::size_t i = 0; i < last; ++i) {
+    t.push_back(double(i));
+    x.insert(x.end(), {std::sin(0.01 * double(i)), 1e9});
+  }
+  const std::vector<std::size_t> places = {3, 3, 400, 512, 1024, 1024, 1024, last};
+  std::vector<double> more, points;
+  for (const auto place : places)
+    more.insert(more.end(), {(double(place) - 0.5) / 3.0, double(more.size())});
+  for (std::size_t row = first, k = 0; row <= last; ++row) {
+    for (; k < places.size() && places[k] == row; ++k)
+      points.insert(points.end(), {more[2 * k], more[2 * k + 1]});
+    if (row < last) points.insert(points.end(), {t[row] / 3.0, x[stride * row] / 0.1});
+  }
+  const auto made =
+      LineOfRows{{{t.data(), 1, 3.0}, {x.data(), stride, 0.1}}, first, last, places, more}.line();
+  const Polyline expected(2, points);
+  ASSERT_EQ(made.size(), expected.size());
+  EXPECT_EQ(made.largest(), expected.largest());
+  for (std::size_t from = 0; from < made.size(); from += 97) {
+    const auto count = std::min<std::size_t>(97, made.size() - from);
+    std::vector<double> found(2 * count), wanted(2 * count);
+    made.copy(from, count, found.data());
+    expected.copy(from, count, wanted.data());
+    EXPECT_EQ(found, wanted) << from;
+  }
+  EXPECT_EQ(hausdorff_distance(made, expected).value, 0.0);
+}
+
 TEST(PolylineDistance, RefusesLinesThatCannotBeCompared) {
   const auto good = line({{0, 0}, {1, 0}});
-  EXPECT_THROW(one_sided_distance(good, Polyline{}), InputError);
-  EXPECT_THROW(one_sided_distance(Polyline{}, good), InputError);
-  EXPECT_THROW(one_sided_distance(good, Polyline{.dimension = 3, .points = {0, 0, 0}}), InputError);
-  EXPECT_THROW(one_sided_distance(good, Polyline{.dimension = 2, .points = {0, 0, 0}}), InputError);
+  EXPECT_THROW(one_sided_distance(good, Line{}), InputError);
+  EXPECT_THROW(one_sided_distance(Line{}, good), InputError);
+  EXPECT_THROW(one_sided_distance(good, Line{.dimension = 3, .points = {0, 0, 0}}), InputError);
+  EXPECT_THROW(one_sided_distance(good, Line{.dimension = 2, .points = {0, 0, 0}}), InputError);
   EXPECT_THROW(one_sided_distance(line({{1, 0}, {0, 0}}), good), InputError);
 }
 
