@@ -28,6 +28,8 @@ class BlockWindow {
     if (i - first_ >= block_size) find(i / block_size);
     return rows_ + (i - first_) * width_;
   }
+  /// Makes row `i` alone.
+  void copy(std::size_t i, Element* to) const { make_(i, 1, to); }
 
  private:
   struct Block {

@@ -60,12 +60,14 @@ class DistanceSearch {
     const auto count = from_.size();
     // A good first value spares searches: what is far away is often far away everywhere.
     const auto stride = std::max<std::size_t>(count / probes, 1);
-    for (std::size_t i = 0; i < count; i += stride) measure(follow(point(i)));
-    measure(follow(point(count - 1)));
-    at_time_ = last_ = 0;
+    for (std::size_t i = 0; i < count; i += stride) measure(jump(point(i)));
+    measure(jump(point(count - 1)));
+    last_ = 0;
     for (std::size_t i = 0; i + 1 < count && looks_left_ > 0.0; ++i) {
+      const double *const a = point(i), *const b = point(i + 1);
+      if (is_beside(a, b)) continue;
       const double before = value_;
-      cover(follow(point(i)), point(i + 1));
+      cover(follow(a), b);
       if (value_ > before) climb(i + 1);
     }
     return {value_, radius(), looks_left_ > 0.0};
@@ -83,9 +85,27 @@ class DistanceSearch {
   // What counts as within the largest distance seen.
   double radius() const { return value_ * (1.0 + relative_excess) + rounding_; }
 
-  // Moves on to the segment of `to` at the time of p; times of p ascend.
+  // Finds the segment of `to` at the time of p, the first that ends later, beside the one used last.
   const double* follow(const double* p) {
+    at_time_ = last_;
+    while (at_time_ > 0 && finish(at_time_ - 1)[0] > p[0]) --at_time_;
     while (at_time_ + 1 < segments_ && finish(at_time_)[0] <= p[0]) ++at_time_;
+    return p;
+  }
+
+  // The same by bisection, which makes no blocks on its way.
+  const double* jump(const double* p) {
+    Point end{};
+    if constexpr (Dimension == 0) end.resize(measure_.dimension());
+    at_time_ = 0;
+    for (auto last = segments_ - 1; at_time_ < last;) {
+      const auto middle = (at_time_ + last) / 2;
+      to_.copy(middle + 1, end.data());
+      if (end[0] <= p[0])
+        at_time_ = middle + 1;
+      else
+        last = middle;
+    }
     return p;
   }
 
@@ -119,13 +139,12 @@ class DistanceSearch {
   // Where the largest distance has grown it often grows on from point to point: looks ahead with
   // doubled strides for as long as it does, without moving on.
   void climb(std::size_t from) {
-    const auto at_time = at_time_, last = last_;
+    const auto last = last_;
     double before = 0.0;
     for (std::size_t stride = 1; from + stride < from_.size() && value_ > before; stride *= 2) {
       before = value_;
-      measure(follow(point(from + stride)));
+      measure(jump(point(from + stride)));
     }
-    at_time_ = at_time;
     last_ = last;
   }
 
@@ -140,6 +159,9 @@ class DistanceSearch {
     return true;
   }
 
+  bool is_beside(const double* a, const double* b) {
+    return is_beside(a, b, last_ + 1) || is_beside(a, b, last_);
+  }
   // Start near start and end near end of one segment: so is what lies between. Without a division.
   bool is_beside(const double* a, const double* b, std::size_t segment) {
     if (segment >= segments_ || measure_.to_point(a, start(segment)) > radius() ||
@@ -151,7 +173,7 @@ class DistanceSearch {
 
   // Makes sure that no point from a to b is farther away than radius(), which grows if need be.
   void cover(const double* a, const double* b) {
-    if (is_beside(a, b, last_ + 1) || is_beside(a, b, last_)) return;
+    if (is_beside(a, b)) return;
     double done = 0.0;
     while (looks_left_ > 0.0) {
       extend(a, b, last_, done);
