@@ -109,7 +109,7 @@ class Calculix(Deck):
         self.agrees("calculix", "sdof", "--set", "t_end=8")
 
     def test_a_bar_that_strikes_a_wall(self):
-        self.agrees("calculix", "bar-wall", "--set", "elements=8")
+        self.agrees("calculix", "bar-wall", "--set", "elements=4")
 
 
 @unittest.skipUnless(has_header("mujoco/mujoco.h"), "needs libmujoco-dev")
