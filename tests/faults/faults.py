@@ -384,17 +384,17 @@ def main():
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--command", required=True, type=os.path.abspath)
     options.add_argument("--library", required=True, type=os.path.abspath)
-    options.add_argument("--seconds", type=float, default=25)
+    options.add_argument("--seconds", type=float, default=25, help="of faults")
     options.add_argument("--seed", type=int, default=20221122)
     options.add_argument("--only", nargs="*", default=(),
                          help="commands: campaign, atlas, ...; or programs: hostile ones and kills, each once")
     options = options.parse_args()
     randomness = random.Random(options.seed)
     runner = Runner(options.command, options.library, randomness)
-    end = time.monotonic() + options.seconds
-    failures = []
+    end, failures = None, []
     try:
         for fault in plan(runner, randomness, options.only):
+            end = end or time.monotonic() + options.seconds  # what comes before the first fault is not counted
             if time.monotonic() > end:
                 break
             try:
