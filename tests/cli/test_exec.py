@@ -50,8 +50,8 @@ class ExecTest(CommandTest):
         """Whether a process has ended; who inherited it may not have waited for it yet."""
         try:
             with open(f"/proc/{number}/stat") as file:
-                return file.read().split()[2] in "ZX"
-        except FileNotFoundError:
+                return file.read().rpartition(")")[2].split()[0] in "ZX"
+        except (FileNotFoundError, ProcessLookupError):  # the second where it ends between open and read
             return True
 
     def runs(self, subject):
