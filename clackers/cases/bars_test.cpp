@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "clackers/base/testing/refusal.hpp"
@@ -35,6 +37,30 @@ double contact_time(const Case& mesh) {
     (depth(middle) < 0.0 ? inside : outside) = middle;
   }
   return inside - begin;
+}
+
+// Mass and stiffness of line elements. What a contact node without mass has is its neighbour's mass, and no
+// stiffness: the spring of its contact stands for its element.
+void assemble(const model::Mesh& mesh, Eigen::MatrixXd& mass, Eigen::MatrixXd& stiffness) {
+  for (const auto& element : mesh.elements) {
+    const auto& a = mesh.nodes.at(element.left);
+    const auto& b = mesh.nodes.at(element.right);
+    const double h = b.x - a.x, m = element.density * h, k = element.stiffness / h;
+    EXPECT_EQ(a.body, b.body);
+    EXPECT_GT(h, 0.0);
+    const bool is_whole = (a.dof || a.is_fixed) && (b.dof || b.is_fixed),
+               is_spread = mesh.mass == model::NodeMass::consistent;
+    for (const auto* node : {&a, &b}) {
+      if (!node->dof) continue;
+      mass(*node->dof, *node->dof) += is_spread ? m / 3.0 : is_whole ? m / 2.0 : m;
+      if (is_whole) stiffness(*node->dof, *node->dof) += k;
+    }
+    if (!a.dof || !b.dof) continue;
+    for (const auto& [i, j] : {std::pair{*a.dof, *b.dof}, {*b.dof, *a.dof}}) {
+      if (is_spread) mass(i, j) += m / 6.0;
+      stiffness(i, j) -= k;
+    }
+  }
 }
 
 Case bar_at_wall(double elements, const char* mass, double eta = 0.0) {
@@ -126,6 +152,40 @@ TEST(BarCases, MeshesMoveAsTheirClosedModes) {
                   1e-10 * n * A * std::sqrt(E * rho) * V);
     }
   }
+}
+
+TEST(BarCases, MatricesAreThoseOfTheElements) {
+  for (const std::string name : {"bar-wall", "bouncing-bar", "two-bars", "mass-on-bar",
+                                 "bar-between-stops", "string-over-point", "string-on-obstacle"})
+    for (const char* kind : {"lumped", "consistent", "massless"}) {
+      const bool has_kinds = name != "string-on-obstacle";
+      if (!has_kinds && kind != std::string("lumped")) continue;
+      Settings settings{{"elements", 5.0}, {"t_end", 1.0}};
+      if (has_kinds) settings.emplace_back("mass", kind);
+      for (const auto& parameter : entry(name).parameters)
+        for (const auto& [letter, value] :
+             {std::pair{"E", 4.0}, {"rho", 1.5}, {"A", 1.25}, {"T", 2.0}})
+          if (parameter.name.starts_with(letter)) settings.emplace_back(parameter.name, value);
+      SCOPED_TRACE(name + " " + kind);
+      const auto made = make_mesh(name, settings);
+      ASSERT_TRUE(made.mesh);
+      const auto& system = made.problem.system;
+      Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(system.dof(), system.dof()), stiffness = mass;
+      if (name == "mass-on-bar") mass(0, 0) = system.mass(0, 0);
+      assemble(*made.mesh, mass, stiffness);
+      EXPECT_LE((mass - system.mass).cwiseAbs().maxCoeff(), 1e-14 * mass.maxCoeff());
+      EXPECT_LE((stiffness - system.stiffness).cwiseAbs().maxCoeff(), 1e-14 * stiffness.maxCoeff());
+      std::vector<Eigen::Index> places;
+      for (const auto& node : made.mesh->nodes_with_dof()) places.push_back(*node.dof);
+      EXPECT_EQ(std::ssize(places), system.dof() - Eigen::Index(name == "mass-on-bar"));
+      EXPECT_EQ(std::ranges::adjacent_find(places, std::greater_equal{}), places.end());
+      // The contact of the first body with what is left of it, and of the last with what is right.
+      const auto& nodes = made.mesh->nodes;
+      for (std::size_t i = 1; i < nodes.size(); ++i)
+        EXPECT_TRUE(nodes[i].body > nodes[i - 1].body || nodes[i].x > nodes[i - 1].x);
+      EXPECT_EQ(std::ranges::count_if(nodes, [](const auto& node) { return node.x == 0.0; }),
+                name == "two-bars" ? 2 : 1);
+    }
 }
 
 TEST(BarCases, MeshesTendToTheBar) {

@@ -10,11 +10,11 @@
 #include "clackers/base/files/note.hpp"
 #include "clackers/base/parameter.hpp"
 #include "clackers/model/impact_problem.hpp"
+#include "clackers/model/mesh.hpp"
 #include "clackers/model/motion.hpp"
 
 namespace clackers::exact {
 class BarMotion;
-struct BarMesh;
 }  // namespace clackers::exact
 
 namespace clackers::cases {
@@ -36,9 +36,9 @@ struct Case {
   model::ImpactProblem<> problem;
   bool is_mesh_only = false;  ///< see make_mesh()
   std::shared_ptr<const model::Motion> motion;
-  /// The bars of which the problem is a mesh, and the mesh; null for a structure of masses.
+  /// The bars of which the problem is a mesh, and the mesh; nothing for a structure of masses.
   std::shared_ptr<const exact::BarMotion> bars;
-  std::shared_ptr<const exact::BarMesh> mesh;
+  std::optional<model::Mesh> mesh;
   /// Set where u1 and u2 are the coordinates of one body, and u3 its radius times its angle: the radius
   /// of a round wall about the origin [m], 0 without one. A drawing needs it; no row of the problem states it.
   std::optional<double> plane;

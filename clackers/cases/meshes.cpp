@@ -12,7 +12,7 @@
 namespace clackers::cases {
 namespace {
 
-using exact::NodeMass;
+using model::NodeMass;
 
 const char* name_of(bool is_string) { return is_string ? "string" : "bar"; }
 
@@ -24,17 +24,18 @@ NodeMass node_mass(const ParameterValue& word) {
 
 // The largest difference of the displacements of mesh and bar, at 51 times and 17 nodes or fewer.
 double space_error(const model::Motion& motion, const exact::BarMotion& bars,
-                   const exact::BarMesh& mesh) {
+                   const model::Mesh& mesh) {
   constexpr int times = 50;
-  const auto& nodes = mesh.nodes;
+  const auto nodes = mesh.nodes_with_dof();
   const std::size_t stride = (nodes.size() + 16) / 17;
   double worst = 0.0;
   for (int k = 0; k <= times; ++k) {
     const double t = std::min(bars.end(), bars.end() * k / times);
     const auto now = motion.at(t, model::Side::right);
     for (std::size_t i = 0; i < nodes.size(); i += stride) {
-      const double u = bars.at(nodes[i].bar, nodes[i].x, t, model::Side::right).u.nearest();
-      worst = std::max(worst, std::abs(now.u[mesh.first + Eigen::Index(i)] - u));
+      const auto& [body, x, dof, is_fixed] = nodes[i];
+      const double u = bars.at(body, std::abs(x), t, model::Side::right).u.nearest();
+      worst = std::max(worst, std::abs(now.u[*dof] - u));
     }
   }
   return worst;
@@ -52,11 +53,10 @@ void use_mesh(Case& test_case, const Values& value, exact::BarMesh made) {
   const auto& who = test_case.entry->name;
   if (!test_case.is_mesh_only)
     require_within(who, "elements", value("elements"), 1.0, most_exact_elements);
-  test_case.mesh = std::make_shared<const exact::BarMesh>(std::move(made));
-  const auto& mesh = *test_case.mesh;
-  test_case.problem = mesh.problem;
+  test_case.problem = std::move(made.problem);
+  test_case.mesh = std::move(made.mesh);
   if (test_case.is_mesh_only) return;
-  const auto motion = std::make_shared<const exact::PiecewiseMotion>(mesh.problem, who);
+  const auto motion = std::make_shared<const exact::PiecewiseMotion>(test_case.problem, who);
   test_case.motion = motion;
   // A rigid motion has no period; the run's length is what it has.
   for (const auto& mode : motion->modes().modes())
@@ -69,7 +69,7 @@ void use_mesh(Case& test_case, const Values& value, exact::BarMesh made) {
                   fmt::format("of the {}'s contact up to t_end", name)});
   list.push_back({"h", bars.lengths().front() / value("elements"), "m", "length of an element"});
   list.push_back(
-      {"e_space", space_error(*motion, bars, mesh), "m",
+      {"e_space", space_error(*motion, bars, *test_case.mesh), "m",
        fmt::format("largest difference between the displacements of mesh and {}, at 51 times: what "
                    "no integrator on this mesh can mend",
                    name)});

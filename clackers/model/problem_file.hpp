@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "clackers/model/impact_problem.hpp"
+#include "clackers/model/mesh.hpp"
 
 // Problems that are read: M a + C v + K u = f(t) with contacts, in SI units.
 namespace clackers::model {
@@ -76,8 +78,15 @@ model::ImpactProblem<> read_problem(const std::string& path);
 /// any other load or nonlinear force.
 std::string problem_json(const model::ImpactProblem<>& problem);
 
-/// A file of that object: {"schema": "clackers/problem/1", "case": name, "problem": {...}}.
-std::string problem_file_json(std::string_view case_name, const model::ImpactProblem<>& problem);
+/// A file of that object: {"schema": "clackers/problem/1", "case": name, "problem": {...}}; of a mesh with
+///
+///     "mesh": {"mass": "lumped",
+///              "nodes": [{"body": 1, "x": 0, "dof": 1, "fixed": false}, ...],
+///              "elements": [{"nodes": [1, 2], "stiffness": 1, "density": 1}, ...]}
+///
+/// where bodies, nodes and degrees of freedom count from 1, and dof is null without one.
+std::string problem_file_json(std::string_view case_name, const model::ImpactProblem<>& problem,
+                              const std::optional<model::Mesh>& mesh = {});
 
 /// The same as lines key=values, numbers separated by blanks, always in this order:
 ///

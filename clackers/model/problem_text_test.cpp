@@ -38,6 +38,18 @@ TEST(ProblemText, JsonHasMatricesContactsStartAndEnd) {
   EXPECT_EQ(file["problem"], expected);
 }
 
+TEST(ProblemText, JsonHasTheMesh) {
+  const Mesh mesh{NodeMass::consistent,
+                  {{0, -0.5, 0}, {0, 0.0, std::nullopt, true}, {1, 0.0, 1}},
+                  {{0, 1, 3.0, 0.25}}};
+  EXPECT_EQ(parse_json(problem_file_json("a", two_masses(), mesh))["mesh"], parse_json(R"({
+    "mass": "consistent",
+    "nodes": [{"body": 1, "x": -0.5, "dof": 1, "fixed": false},
+              {"body": 1, "x": 0, "dof": null, "fixed": true},
+              {"body": 2, "x": 0, "dof": 2, "fixed": false}],
+    "elements": [{"nodes": [1, 2], "stiffness": 3, "density": 0.25}]})"));
+}
+
 TEST(ProblemText, LinesHaveAFixedOrder) {
   EXPECT_EQ(problem_file_text(two_masses()),
             "dof=2\ncontacts=2\nt=0\nend=20\nu=0.3333333333333333 0\nv=0 -1e-07\n"

@@ -98,13 +98,13 @@ void take_end(SolverOutput& output, const ProcessResult& result, double timeout)
 
 }  // namespace
 
-ProgramRunner::ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
-                             const model::ImpactProblem<>& problem, const ProcessOptions& options,
+ProgramRunner::ProgramRunner(CommandTemplate command, std::string name,
+                             const cases::Case& test_case, const ProcessOptions& options,
                              std::shared_ptr<WorkFolder> folder)
     : command_(std::move(command)),
-      title_(fmt::format("{}-{}", name, case_name)),
-      json_(problem_file_json(case_name, problem)),
-      text_(problem_file_text(problem)),
+      title_(fmt::format("{}-{}", name, test_case.entry->name)),
+      json_(problem_file_json(test_case.entry->name, test_case.problem, test_case.mesh)),
+      text_(problem_file_text(test_case.problem)),
       timeout_(options.timeout),
       fresh_(options.fresh),
       environment_(options.environment),
@@ -113,9 +113,8 @@ ProgramRunner::ProgramRunner(CommandTemplate command, std::string name, std::str
 std::function<std::unique_ptr<Solver>(const cases::Case&)> ProgramRunner::maker(
     const CommandTemplate& command, const std::string& name, const ProcessOptions& options,
     const std::shared_ptr<WorkFolder>& folder) {
-  return [=](const cases::Case& problem) {
-    return std::make_unique<ProgramRunner>(command, name, problem.entry->name, problem.problem,
-                                           options, folder);
+  return [=](const cases::Case& test_case) {
+    return std::make_unique<ProgramRunner>(command, name, test_case, options, folder);
   };
 }
 

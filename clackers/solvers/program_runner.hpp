@@ -21,9 +21,8 @@ namespace clackers::solvers {
 /// Runs one program on one case. run() may be called from several threads.
 class ProgramRunner : public Solver {
  public:
-  ProgramRunner(CommandTemplate command, std::string name, std::string_view case_name,
-                const model::ImpactProblem<>& problem, const ProcessOptions& options,
-                std::shared_ptr<WorkFolder> folder);
+  ProgramRunner(CommandTemplate command, std::string name, const cases::Case& test_case,
+                const ProcessOptions& options, std::shared_ptr<WorkFolder> folder);
 
   /// What SolverSubject::prepare calls.
   static std::function<std::unique_ptr<Solver>(const cases::Case&)> maker(

@@ -101,6 +101,13 @@ class Examples(ExecTest):
         self.agrees(f"octave-cli --no-history {SOLVERS}/newmark.m {{case}} {{h}} {{out}}",
                     "irregular:1", "4", [["stop"]])
 
+    def test_elements_of_the_mesh(self):
+        command = f"python3 {SOLVERS}/bar.py {{case}} {{h}} {{out}}"
+        self.agrees(command, "irregular:1", "4", [["bar-wall", "--set", "elements=4,mass=lumped"],
+                                                  ["mass-on-bar", "--set", "elements=4,mass=lumped"]])
+        done = run("verify", "--exec", command, "--case", "bar-wall", "--set", "elements=4", *SHORT[-4:])
+        self.assertIn("mass = massless; allowed: lumped", done.stderr)
+
     def test_are_short(self):
         for name in os.listdir(SOLVERS):
             if name != "README.md":

@@ -14,6 +14,7 @@ namespace clackers::exact {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using model::NodeMass;
 
 namespace {
 
@@ -44,12 +45,12 @@ BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta
              is_struck = p.striker > 0.0, between = p.clearance > 0.0;
   // Massless nodes of the contact end and of the far end are left out, fixed ones as well.
   const auto n = Index(elements), out = Index(massless), far_out = Index(massless && between),
-             nodes = n + 1 - out - far_out - Index(p.is_fixed);
-  BarMesh mesh;
-  mesh.first = is_struck ? 1 : 0;
-  mesh.nodes.resize(std::size_t(nodes) * p.bars.size());
-  const auto dof = mesh.first + Index(mesh.nodes.size());
-  auto& problem = mesh.problem;
+             nodes = n + 1 - out - far_out - Index(p.is_fixed), masses = Index(is_struck),
+             dof = masses + nodes * Index(p.bars.size());
+  BarMesh made;
+  auto& [problem, mesh] = made;
+  mesh.mass = mass;
+  mesh.nodes.resize(std::size_t(n + 1) * p.bars.size());
   auto& system = problem.system;
   system.mass = system.damping = system.stiffness = MatrixXd::Zero(dof, dof);
   problem.start = {0.0, VectorXd::Zero(dof), VectorXd::Zero(dof)};
@@ -61,16 +62,22 @@ BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta
   for (std::size_t b = 0; b < p.bars.size(); ++b) {
     const auto& bar = p.bars[b];
     const double h = bar.L / elements, m = bar.rho * bar.A * h, k = bar.E * bar.A / h;
+    const bool is_left = two && b == 0;
     // Of the node i from the contact end, 0 the end itself; the left bar comes first, backwards.
+    const auto number = [&](Index i) {
+      return std::size_t(is_left ? n - i : Index(b) * (n + 1) + i);
+    };
     const auto place = [&](Index i) {
       i = std::max<Index>(std::min(i, n - far_out) - out, 0);
-      return mesh.first + (two && b == 0 ? nodes - 1 - i : Index(b) * nodes + i);
+      return masses + (is_left ? nodes - 1 - i : Index(b) * nodes + i);
     };
     // A fixed node takes part of the elements beside it, and does not move.
     const auto moves = [&](Index i) { return i < dof; };
     contact_ends.push_back(place(0));
     compliance += 1.0 / k;
     for (Index i = 0; i < n; ++i) {
+      mesh.elements.push_back({number(is_left ? i + 1 : i), number(is_left ? i : i + 1),
+                               bar.E * bar.A, bar.rho * bar.A});
       const Index first = place(i), second = place(i + 1);
       if (mass == NodeMass::consistent) {
         for (const Index j : {first, second})
@@ -90,9 +97,11 @@ BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta
       system.stiffness(first, second) -= k;
       system.stiffness(second, first) -= k;
     }
-    for (Index i = out; i <= n - far_out; ++i) {
-      if (!moves(place(i))) continue;
-      mesh.nodes[std::size_t(place(i) - mesh.first)] = {b, h * double(i)};
+    for (Index i = 0; i <= n; ++i) {
+      auto& node = mesh.nodes[number(i)];
+      node = {b, h * double(is_left ? -i : i), std::nullopt, !moves(place(i))};
+      if (node.is_fixed || i < out || i > n - far_out) continue;
+      node.dof = place(i);
       problem.start.u[place(i)] = p.pluck * double(n - i) / elements;
       problem.start.v[place(i)] = bar.v0;
     }
@@ -118,15 +127,15 @@ BarMesh bar_mesh(const MeshedBars& p, double elements, NodeMass mass, double eta
   } else {
     problem.contacts = std::move(contacts);
   }
-  return mesh;
+  return made;
 }
 
 BarMesh string_mesh(const StringOnObstacleParameters& p, double elements, std::string_view who) {
   require_elements(who, elements, 2.0);
   const auto dof = Index(elements) - 1;
   const double h = p.L / elements;
-  BarMesh mesh;
-  auto& problem = mesh.problem;
+  BarMesh made;
+  auto& [problem, mesh] = made;
   auto& system = problem.system;
   system.mass = p.rho * h * MatrixXd::Identity(dof, dof);
   system.damping = MatrixXd::Zero(dof, dof);
@@ -141,9 +150,14 @@ BarMesh string_mesh(const StringOnObstacleParameters& p, double elements, std::s
     problem.start.u[i] =
         p.H * std::min(left / (p.place * elements), right / ((1.0 - p.place) * elements));
     problem.contacts.push_back({VectorXd::Unit(dof, i), 0.0, 1.0});
-    mesh.nodes.push_back({0, h * left});
   }
-  return mesh;
+  for (Index i = 0; i <= dof + 1; ++i) {
+    const bool is_fixed = i == 0 || i == dof + 1;
+    mesh.nodes.push_back(
+        {0, h * double(i), is_fixed ? std::nullopt : std::optional(i - 1), is_fixed});
+    if (i > 0) mesh.elements.push_back({std::size_t(i - 1), std::size_t(i), p.T, p.rho});
+  }
+  return made;
 }
 
 }  // namespace clackers::exact

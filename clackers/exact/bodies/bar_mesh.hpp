@@ -6,13 +6,9 @@
 #include "clackers/exact/bodies/bar_contact.hpp"
 #include "clackers/exact/bodies/string_on_obstacle.hpp"
 #include "clackers/model/impact_problem.hpp"
+#include "clackers/model/mesh.hpp"
 
 namespace clackers::exact {
-
-/// Where the mass of linear elements is: at the nodes, spread (rho A h/6 [2 1; 1 2] an element), or at
-/// the nodes without that of the contact nodes, which their neighbours carry (mass redistribution:
-/// H. B. Khenous, P. Laborde, Y. Renard, Eur. J. Mech. A 27, 918-932 (2008)).
-enum class NodeMass { lumped, consistent, massless };
 
 /// What is meshed: the bars of a BarContact, one that a rigid mass strikes, one between stops, or half a plucked string.
 struct MeshedBars {
@@ -28,20 +24,13 @@ struct MeshedBars {
 /// degree of freedom.
 struct BarMesh {
   model::ImpactProblem<> problem;
-  /// Of each degree of freedom but that of a mass, ascending along x: the bar and the distance from its
-  /// contact end [m].
-  struct Node {
-    std::size_t bar = 0;
-    double x = 0.0;
-  };
-  std::vector<Node> nodes;
-  Eigen::Index first = 0;  ///< degree of freedom of the first node
+  model::Mesh mesh;
 };
 
 /// `elements` in each bar. Massless contact nodes are eliminated: what is left of them is a one-sided
 /// spring, the element at the contact. Throws InputError, `who` first, unless 1 <= elements <= 4000, a
 /// whole number, at least 2 where contact nodes are massless; and for a restitution of those.
-BarMesh bar_mesh(const MeshedBars& meshed, double elements, NodeMass mass, double eta,
+BarMesh bar_mesh(const MeshedBars& meshed, double elements, model::NodeMass mass, double eta,
                  std::string_view who);
 
 /// The nodes of a StringOnObstacle between its ends, of mass rho h, each above a stop at u = 0 with restitution 1.

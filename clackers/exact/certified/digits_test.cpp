@@ -333,7 +333,7 @@ TEST(Digits, OfForcesInBalanceAndOfPlacesOfImpactsAre0) {
 TEST(Digits, OfABarThatBouncesAreWithinTheBoundOfItsMotion) {
   const auto mesh =
       exact::bar_mesh({.bars = {{1.0, 1.0, 1.0, 1.0, -1.0}}, .gap = -0.25, .end = 2.5}, 8.0,
-                      exact::NodeMass::massless, 0.0, "bar");
+                      model::NodeMass::massless, 0.0, "bar");
   const PiecewiseMotion motion(mesh.problem);
   const auto now = Digits(motion, 20).at(2.5, Side::right);
   const auto known = motion.at(2.5, Side::right), bound = motion.error_bound(2.5);
@@ -361,6 +361,29 @@ TEST(Digits, OfSpringsThatCloseAndOpen) {
   EXPECT_LE(abs(at(2.0) + sin(3 * (2 - pi / 2)) / 3), Real("1e-49"));
   EXPECT_LE(abs(at(4.0) - sin(4 - 5 * pi / 6)), Real("1e-49"));
   EXPECT_LE(abs(at(6.0) + sin(3 * (6 - 11 * pi / 6)) / 3), Real("1e-49"));
+}
+
+// Series whose steps are short enough for what is fast: a spring and a light mass, and a dashpot.
+TEST(Digits, OfFastMassesAreThoseOfTheirClosedForms) {
+  const double fast = std::exp2(100.0), t = std::exp2(-103.0);
+  const auto digits_of = [&](double mass, double stiffness, double damping, double u, double v) {
+    model::ImpactProblem<> problem;
+    problem.system.mass = Eigen::MatrixXd::Constant(1, 1, mass);
+    problem.system.stiffness = Eigen::MatrixXd::Constant(1, 1, stiffness);
+    problem.system.damping = Eigen::MatrixXd::Constant(1, 1, damping);
+    problem.start = {0.0, Eigen::VectorXd::Constant(1, u), Eigen::VectorXd::Constant(1, v)};
+    problem.end = 2.0 * t;
+    const PiecewiseMotion motion(problem);
+    const auto now = Digits(motion, 20).at(t, Side::right);
+    return std::pair{Real(now.u[0]), Real(now.v[0])};
+  };
+  const Real eighth = Real(1) / 8, least("5e-21");
+  const auto [u, v] = digits_of(1.0 / (fast * fast), 1.0, 0.0, 1.0, 0.0);
+  EXPECT_LE(abs(u - cos(eighth)), least);
+  EXPECT_LE(abs(v / fast + sin(eighth)), least);
+  const auto [w, slowed] = digits_of(1.0, 0.0, fast, 0.0, 1.0);
+  EXPECT_LE(abs(w * fast - (1 - exp(-eighth))), 10 * least);
+  EXPECT_LE(abs(slowed - exp(-eighth)), 10 * least);
 }
 
 TEST(Digits, AreRefusedWhereContactsAreHeld) {

@@ -41,12 +41,12 @@ MeshReference mesh_reference(cases::Case made, double elements, double nu) {
   known.mesh = std::move(made);
   const auto* motion = known.mesh.motion.get();
   const double end = known.mesh.problem.end;
-  const auto& nodes = known.mesh.mesh->nodes;
+  const auto nodes = known.mesh.mesh->nodes_with_dof();
   const double steps = steps_along_path(known.mesh, elements, nu);
   known.h = known.mesh.bars->lengths().front() / elements;
   known.step = end / steps;
   const std::size_t stride = (nodes.size() + most_nodes - 1) / most_nodes;
-  for (std::size_t i = 0; i < nodes.size(); i += stride) known.nodes.push_back(i);
+  for (std::size_t i = 0; i < nodes.size(); i += stride) known.nodes.push_back(nodes[i]);
   const auto count = std::size_t(std::min(steps, double(most_times)));
   for (std::size_t k = 1; k <= count; ++k) {
     const double t = std::min(end, std::round(double(k) * steps / double(count)) * known.step);
@@ -54,13 +54,11 @@ MeshReference mesh_reference(cases::Case made, double elements, double nu) {
     const Eigen::VectorXd u_mesh =
         motion == nullptr ? Eigen::VectorXd::Constant(known.mesh.problem.dof(), std::nan(""))
                           : motion->at(t, Side::right).u;
-    for (const auto i : known.nodes) {
-      const auto& [bar, x] = nodes[i];
-      const auto right = known.mesh.bars->at(bar, x, t, Side::right);
-      const auto left = known.mesh.bars->at(bar, x, t, Side::left);
-      const MeshReference::Point point{right.u.nearest(),
-                                       u_mesh[known.mesh.mesh->first + Eigen::Index(i)],
-                                       left.v.nearest(), right.v.nearest()};
+    for (const auto& node : known.nodes) {
+      const auto right = known.mesh.bars->at(node.body, std::abs(node.x), t, Side::right);
+      const auto left = known.mesh.bars->at(node.body, std::abs(node.x), t, Side::left);
+      const MeshReference::Point point{right.u.nearest(), u_mesh[*node.dof], left.v.nearest(),
+                                       right.v.nearest()};
       known.points.push_back(point);
       known.size = std::max(known.size, std::abs(point.u));
       known.e_space = worst(known.e_space, point.u_mesh - point.u);
@@ -100,10 +98,9 @@ void MeshSink::note_energy(const double* u, const double* v, bool first) {
 }
 
 void MeshSink::compare(const double* u, const double* v) {
-  const auto first = std::size_t(known_.mesh.mesh->first);
   const auto* point = &known_.points[next_++ * known_.nodes.size()];
-  for (const auto node : known_.nodes) {
-    const auto i = first + node;
+  for (const auto& node : known_.nodes) {
+    const auto i = std::size_t(*node.dof);
     e_total_ = worst(e_total_, u[i] - point->u);
     e_time_ = worst(e_time_, u[i] - point->u_mesh);
     // On a front the bar has two velocities; the nearer one counts.

@@ -18,11 +18,11 @@ struct MeshReference {
   };
 
   cases::Case mesh;
-  double h = 0.0, step = 0.0;      ///< of an element [m], and of the integrator [s]
-  std::vector<std::size_t> nodes;  ///< of the mesh, at most 64
-  std::vector<double> times;       ///< multiples of the step, at most 100 [s]
-  std::vector<Point> points;       ///< of each time all nodes
-  double size = 0.0;               ///< the largest |u| of the bar [m]
+  double h = 0.0, step = 0.0;            ///< of an element [m], and of the integrator [s]
+  std::vector<model::Mesh::Node> nodes;  ///< with a degree of freedom, at most 64
+  std::vector<double> times;             ///< multiples of the step, at most 100 [s]
+  std::vector<Point> points;             ///< of each time all nodes
+  double size = 0.0;                     ///< the largest |u| of the bar [m]
   /// The largest difference of mesh and bar, over it; NaN where the mesh's motion is not known.
   double e_space = 0.0;
 };
