@@ -28,7 +28,7 @@ class BlockWindow {
     if (i - first_ >= block_size) find(i / block_size);
     return rows_ + (i - first_) * width_;
   }
-  /// Makes row `i` alone.
+  /// Makes only row `i`.
   void copy(std::size_t i, Element* to) const { make_(i, 1, to); }
 
  private:

@@ -90,8 +90,8 @@ std::vector<ParameterFit> fitted_to_all(const FitRows& rows, const CaseFamily& f
   return fits;
 }
 
-// Whether the flights of a motion are those of the case, so that impacts alone make the difference: but
-// for a tenth of the times it moves freely by the equations of the case where the case does, most of the run.
+// Whether a motion obeys the equations of the case between impacts, so that only impacts differ: at nine
+// in ten of the times at which the case moves freely, which must be most of the run.
 bool has_flights_of_case(const model::Motion& motion, const DiagnosisInput& question,
                          const std::vector<double>& times) {
   constexpr double rounding = 1e-9, exceptions = 0.1;

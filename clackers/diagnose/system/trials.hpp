@@ -12,7 +12,7 @@ inline constexpr double least_race_lead = 10.0;
 
 /// Errors of right methods look like other systems with gains of up to 22.
 inline constexpr double least_system_gain = 30.0;
-/// One file alone cannot tell a model from a method below this.
+/// Below this, one file cannot tell another model from the error of a method.
 inline constexpr double least_gain_alone = 100.0;
 /// A coarser file must show the cause as well, if less clearly: the method's error grows.
 inline constexpr double least_gain_beside = 3.0;

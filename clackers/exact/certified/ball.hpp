@@ -129,6 +129,24 @@ inline Ball power(const Ball& a, unsigned long n) {
   arb_pow_ui(c.get(), a.get(), n, WorkingBits::now());
   return c;
 }
+/// The middle, exactly.
+inline Ball middle(const Ball& a) {
+  Ball c;
+  arb_get_mid_arb(c.get(), a.get());
+  return c;
+}
+/// How far the numbers of a are from its middle at most.
+inline Ball radius(const Ball& a) {
+  Ball c;
+  arb_get_rad_arb(c.get(), a.get());
+  return c;
+}
+/// A number without a radius that is at least |x| for every x of a.
+inline Ball upper(const Ball& a) {
+  Ball c;
+  arb_get_abs_ubound_arf(arb_midref(c.get()), a.get(), WorkingBits::now());
+  return c;
+}
 /// a 2^n, exactly.
 inline Ball scaled(const Ball& a, long n) {
   Ball c;

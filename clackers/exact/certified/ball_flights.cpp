@@ -51,29 +51,17 @@ Vector product(const Vector& a, const Vector& x) {
   return y;
 }
 
-Ball upper(const Ball& x) {
-  Ball bound;
-  arb_get_abs_ubound_arf(arb_midref(bound.get()), x.get(), WorkingBits::now());
-  return bound;
-}
-
-Ball radius(const Ball& x) {
-  Ball radius;
-  arb_get_rad_arb(radius.get(), x.get());
-  return radius;
-}
-
-Ball middle(const Ball& x) {
-  Ball middle;
-  arb_get_mid_arb(middle.get(), x.get());
-  return middle;
-}
-
 Ball largest(const Vector& x) {
   Ball most;
   for (const auto& value : x)
     if (const Ball now = upper(value); most < now) most = now;
   return most;
+}
+
+// The forces of `rate` become accelerations.
+void accelerate(Vector& rate, const Vector& inverse_mass, std::size_t n) {
+  const auto forces = rate.begin() + long(n);
+  std::ranges::copy(product(inverse_mass, {forces, forces + long(n)}), forces);
 }
 
 }  // namespace
@@ -120,7 +108,8 @@ Vector BallFlights::responses(const Eigen::VectorXd& force) const {
   return product(inverse_mass_, {force.begin(), force.end()});
 }
 
-// Of the velocities' rows M times them: of doubles as they stand, so that forces in balance come out as 0.
+// In the rows of velocities forces, not accelerations: sums of doubles as they stand, so that
+// forces in balance come out as 0.
 void BallFlights::find_rate() {
   rate_.assign(size_ * size_, {});
   const auto& s = problem_.system;
@@ -147,38 +136,30 @@ void BallFlights::find_rate() {
     entry(cosine, cosine + 1) = -f.frequency;
     entry(cosine + 1, cosine) = f.frequency;
   }
-  Vector sizes(n_), absolute_inverse;
+  Vector absolute_inverse;
   for (const auto& m : inverse_mass_) absolute_inverse.push_back(upper(m));
-  const auto largest_rate = [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = 0; i < n_; ++i) {
-      sizes[i] = Ball();
-      for (std::size_t j = first; j < last; ++j) sizes[i] = sizes[i] + upper(entry(n_ + i, j));
-    }
-    return largest(product(absolute_inverse, sizes));
+  // The largest rate of any entry for entries of `columns` that are at most 1.
+  const auto norm = [&](std::size_t columns) {
+    Vector most(size_);
+    for (std::size_t i = 0; i < size_; ++i)
+      for (std::size_t j = 0; j < columns; ++j) most[i] = most[i] + upper(entry(i, j));
+    accelerate(most, absolute_inverse, n_);
+    return largest(most);
   };
-  // A power of 2, and the same for all regimes, so that a state may go on in
-  // another.
-  if (const double square = largest_rate(0, n_).middle(); y_.empty() && square > 0.0)
+  // A power of 2, and the same for all regimes, so that a state may go on in another.
+  if (const double square = norm(n_).middle(); y_.empty() && square > 0.0)
     unit_ = std::exp2(std::round(0.5 * std::log2(square)));
   for (std::size_t i = 0; i < n_; ++i) {
     entry(i, n_ + i) = unit_;
     for (std::size_t j = 0; j < size_; ++j)
       if (j < n_ || j >= 2 * n_) entry(n_ + i, j) = entry(n_ + i, j) / unit_;
   }
-  norm_ = largest_rate(0, size_);
-  for (std::size_t i = 0; i < size_; ++i) {
-    if (i >= n_ && i < 2 * n_) continue;
-    Ball sum;
-    for (std::size_t j = 0; j < size_; ++j) sum = sum + upper(entry(i, j));
-    if (norm_ < sum) norm_ = upper(sum);
-  }
+  norm_ = norm(size_);
 }
 
 Vector BallFlights::rate(const Vector& y) const {
   auto rate = product(rate_, y);
-  const auto from = rate.begin() + long(n_);
-  const auto accelerations = product(inverse_mass_, {from, from + long(n_)});
-  std::ranges::copy(accelerations, from);
+  accelerate(rate, inverse_mass_, n_);
   return rate;
 }
 

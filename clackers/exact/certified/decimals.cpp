@@ -68,9 +68,7 @@ bool must_be_half(const Ball& z, const Fraction& fraction, int digits, long long
   const double log2_10 = std::log2(10.0);
   const double apart = fraction.bits + 2.0 * log2_10 * double(std::max(0LL, -p)) +
                        log2_10 * double(digits + 2) + 8.0;
-  Ball limit(1.0), radius;
-  arb_get_rad_arb(radius.get(), z.get());
-  return apart < 1e15 && radius < scaled(limit, -std::lround(apart));
+  return apart < 1e15 && radius(z) < scaled(Ball(1.0), -std::lround(apart));
 }
 
 // z > 0 as a whole number, half to even, or nothing.
@@ -84,9 +82,7 @@ std::optional<std::string> rounded(const Ball& z, const std::optional<Fraction>&
   } else {
     // Between two whole numbers: the upper one is the whole number that z + 1/2 may be.
     if (!fraction || !must_be_half(z, *fraction, digits, p)) return {};
-    Ball upper = z + 0.5;
-    arb_get_mid_arb(upper.get(), upper.get());
-    if (arb_get_unique_fmpz(n.get(), floor_of(upper + 0.5).get()) == 0) return {};
+    if (arb_get_unique_fmpz(n.get(), floor_of(middle(z + 0.5) + 0.5).get()) == 0) return {};
     half = true;
   }
   if (half && fmpz_is_odd(n.get()) != 0) fmpz_sub_ui(n.get(), n.get(), 1);

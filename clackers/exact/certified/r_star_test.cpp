@@ -30,12 +30,6 @@ Ball slope_of_stationary(const Ball& X, const Ball& x) {
   return -((X - Ball(1.0) / X) * sin(x / X) * sin(x));
 }
 
-Ball middle_of(const Ball& x) {
-  Ball m;
-  arb_get_mid_arb(m.get(), x.get());
-  return m;
-}
-
 // Where sin(x) / (X sin(x/X)) has its minimum, x = X theta: the only zero in (pi, 3 pi/2) of
 // h(x) = X sin(x/X) cos(x) - sin(x) cos(x/X), for odd X >= 5. It is the only one because
 // h' = -(X - 1/X) sin(x/X) sin(x) > 0 there. Certain to `bits`.
@@ -46,7 +40,7 @@ Ball graze_angle(double X_odd, long bits) {
     // Newton from a point in the middle of where the zeros of all X lie, without any proof.
     Ball x = 4.5;
     for (long known = 1; known < 2 * working; known *= 2)
-      x = middle_of(x - stationary(X, x) / slope_of_stationary(X, x));
+      x = middle(x - stationary(X, x) / slope_of_stationary(X, x));
     // The proof: h is rising and changes its sign within this distance, all within (pi, 3 pi/2).
     const Ball reach = scaled(Ball(1.0), -(bits + 8));
     const Ball low = x - reach, high = x + reach;
@@ -94,10 +88,7 @@ bool everywhere(double low, double high, auto holds, int depth = 12) {
 
 // F_r(x) >= F_r(middle) - |F_r'| radius: sharper than F_r of the ball.
 bool is_apart(const Ball& X, const Ball& r, const Ball& x) {
-  Ball middle, radius;
-  arb_get_mid_arb(middle.get(), x.get());
-  arb_get_rad_arb(radius.get(), x.get());
-  return (separation(X, r, middle) - abs(slope(X, r, x)) * radius).is_positive();
+  return (separation(X, r, middle(x)) - abs(slope(X, r, x)) * radius(x)).is_positive();
 }
 
 // F_r > 0 for 0 < x <= low, and from `high` to X pi/2. F_r(0) = 0.

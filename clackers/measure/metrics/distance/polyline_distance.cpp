@@ -26,10 +26,8 @@ double largest_of(const std::vector<double>& coordinates) {
   return largest;
 }
 
-using PointWindow = BlockWindow<double>;
-
 // All coordinates times 2^exponent.
-PointWindow window(const Polyline& line, int exponent) {
+BlockWindow<double> window(const Polyline& line, int exponent) {
   return {line.size(), line.dimension(),
           [&line, exponent](std::size_t first, std::size_t count, double* to) {
             line.copy(first, count, to);
@@ -65,7 +63,7 @@ class DistanceSearch {
     last_ = 0;
     for (std::size_t i = 0; i + 1 < count && looks_left_ > 0.0; ++i) {
       const double *const a = point(i), *const b = point(i + 1);
-      if (is_beside(a, b)) continue;
+      if (is_near(a, b)) continue;
       const double before = value_;
       cover(follow(a), b);
       if (value_ > before) climb(i + 1);
@@ -159,11 +157,11 @@ class DistanceSearch {
     return true;
   }
 
-  bool is_beside(const double* a, const double* b) {
-    return is_beside(a, b, last_ + 1) || is_beside(a, b, last_);
+  bool is_near(const double* a, const double* b) {
+    return is_near(a, b, last_ + 1) || is_near(a, b, last_);
   }
   // Start near start and end near end of one segment: so is what lies between. Without a division.
-  bool is_beside(const double* a, const double* b, std::size_t segment) {
+  bool is_near(const double* a, const double* b, std::size_t segment) {
     if (segment >= segments_ || measure_.to_point(a, start(segment)) > radius() ||
         measure_.to_point(b, finish(segment)) > radius())
       return false;
@@ -173,7 +171,7 @@ class DistanceSearch {
 
   // Makes sure that no point from a to b is farther away than radius(), which grows if need be.
   void cover(const double* a, const double* b) {
-    if (is_beside(a, b)) return;
+    if (is_near(a, b)) return;
     double done = 0.0;
     while (looks_left_ > 0.0) {
       extend(a, b, last_, done);
@@ -203,7 +201,7 @@ class DistanceSearch {
     return point;
   }
 
-  PointWindow from_, to_;
+  BlockWindow<double> from_, to_;
   std::size_t segments_;  // a line of one point counts as one segment of length 0
   SegmentDistance<Dimension> measure_;
   double value_, rounding_;
