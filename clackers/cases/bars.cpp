@@ -147,7 +147,7 @@ std::vector<Parameter> parameters(const std::vector<std::string>& numbers,
                     positive("A" + number, 1.0, "m^2", "area")})
       list.push_back(p);
   for (auto& p : own) list.push_back(std::move(p));
-  for (auto& p : mesh_parameters(false, end)) list.push_back(std::move(p));
+  for (auto& p : mesh_parameters(false, end, numbers.size())) list.push_back(std::move(p));
   return list;
 }
 

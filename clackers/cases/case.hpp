@@ -39,6 +39,7 @@ struct Case {
   /// The bars of which the problem is a mesh, and the mesh; nothing for a structure of masses.
   std::shared_ptr<const exact::BarMotion> bars;
   std::optional<model::Mesh> mesh;
+  double most_exact_elements = 0.0;  ///< up to so many the exact motion of the mesh is known
   /// Set where u1 and u2 are the coordinates of one body, and u3 its radius times its angle: the radius
   /// of a round wall about the origin [m], 0 without one. A drawing needs it; no row of the problem states it.
   std::optional<double> plane;
@@ -63,11 +64,8 @@ const CaseEntry& entry(std::string_view name);
 Case make(std::string_view name, const Settings& settings = {},
           double threshold = default_threshold);
 
-/// Of a mesh whose exact motion is known; the errors of more masses would take too much memory.
-inline constexpr double most_exact_elements = 200.0;
-
 /// The bars of a case and their mesh, without the exact motion of the mesh and what is derived from it: of up to 4000
-/// elements, where make() takes most_exact_elements. Throws InputError as make() does, and (no-closed-form) for a case that is no mesh.
+/// elements, where make() takes `most_exact_elements`. Throws InputError as make() does, and (no-closed-form) for a case that is no mesh.
 Case make_mesh(std::string_view name, const Settings& settings = {});
 
 /// How far the masses of a pair stay apart away from equilibrium (sharp form of Eq. 18).

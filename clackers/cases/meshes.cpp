@@ -46,13 +46,15 @@ double space_error(const model::Motion& motion, const exact::BarMotion& bars,
 void use_mesh(Case& test_case, const Values& value, const exact::MeshedBars& meshed) {
   use_mesh(test_case, value,
            exact::bar_mesh(meshed, value("elements"), node_mass(value("mass")), value("eta"),
-                           test_case.entry->name));
+                           test_case.entry->name),
+           most_exact_elements / double(meshed.bars.size()));
 }
 
-void use_mesh(Case& test_case, const Values& value, exact::BarMesh made) {
+void use_mesh(Case& test_case, const Values& value, exact::BarMesh made, double most_exact) {
   const auto& who = test_case.entry->name;
   if (!test_case.is_mesh_only)
-    require_within(who, "elements", value("elements"), 1.0, most_exact_elements);
+    require_within(who, "elements", value("elements"), 1.0, most_exact);
+  test_case.most_exact_elements = most_exact;
   test_case.problem = std::move(made.problem);
   test_case.mesh = std::move(made.mesh);
   if (test_case.is_mesh_only) return;
@@ -87,9 +89,11 @@ void add_contact(Case& test_case, int number, const numerics::Bounded& t, bool c
        closes ? fmt::format("contact of the {} begins", name) : "and ends"});
 }
 
-std::vector<Parameter> mesh_parameters(bool is_string, double end) {
+std::vector<Parameter> mesh_parameters(bool is_string, double end, std::size_t bars) {
   std::vector<Parameter> list;
-  list.push_back({"elements", 16.0, "", "a whole number, 2 <= elements <= 200",
+  list.push_back({"elements", 16.0, "",
+                  fmt::format("a whole number, 2 <= elements <= {}",
+                              most_exact_elements / double(bars)),
                   fmt::format("of the mesh, in each {}", is_string ? "half" : "bar")});
   list.push_back({"mass",
                   "massless",

@@ -380,7 +380,7 @@ TEST(StringCases, MeshesTendToTheStringOnAnObstacle) {
       EXPECT_EQ(contact.direction, Eigen::VectorXd::Unit(u.size(), Eigen::Index(i)));
       EXPECT_EQ(contact.gap, 0.0);
       EXPECT_EQ(contact.restitution, 1.0);
-      EXPECT_NEAR(mesh.mesh->nodes[i].x, double(i + 1) / n, 1e-15);
+      EXPECT_NEAR(mesh.mesh->nodes[i + 1].x, double(i + 1) / n, 1e-15);
     }
   }
   EXPECT_LT(before, 0.06);

@@ -55,6 +55,16 @@ MatrixXd Cholesky::solve(const MatrixXd& b) const { return factors_.solve(b); }
 
 MatrixXd solved(const MatrixXd& a, const MatrixXd& b) { return Cholesky(a).solve(b); }
 
+MatrixXd product_of_quarters(const MatrixXd& a, const MatrixXd& x) {
+  const auto rows = a.rows() / 2, inner = a.cols() / 2;
+  MatrixXd y = MatrixXd::Zero(a.rows(), x.cols());
+  for (Eigen::Index i = 0; i < 2; ++i)
+    for (Eigen::Index j = 0; j < 2; ++j)
+      if (const auto quarter = a.block(i * rows, j * inner, rows, inner); !quarter.isZero(0.0))
+        y.middleRows(i * rows, rows).noalias() += quarter * x.middleRows(j * inner, inner);
+  return y;
+}
+
 MatrixXd shortest_solution(const MatrixXd& a, const MatrixXd& b) {
   return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(a).solve(b);
 }

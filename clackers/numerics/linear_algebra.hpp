@@ -36,6 +36,10 @@ Eigen::MatrixXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::MatrixX
 /// Columns Z with rows Z = 0 and Z^T M Z = 1, for independent rows and a positive definite M.
 Eigen::MatrixXd unseen_directions(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& mass);
 
+/// A X, without products of quarters of A that are 0, as those between displacements and velocities are
+/// of structures without damping. A has even numbers of rows and columns.
+Eigen::MatrixXd product_of_quarters(const Eigen::MatrixXd& a, const Eigen::MatrixXd& x);
+
 /// x that makes |A x - b| least, by QR with column pivoting; pivots below `threshold` times the
 /// largest count as 0. A negative threshold is Eigen's own.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,

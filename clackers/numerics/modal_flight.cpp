@@ -167,6 +167,17 @@ std::optional<ModalSystem> ModalSystem::make(const MatrixXd& mass, const MatrixX
   return made;
 }
 
+ModalSystem ModalSystem::undamped(const VectorXd& squares, const MatrixXd& shapes,
+                                  const MatrixXd& mass) {
+  ModalSystem made;
+  for (const double square : squares) made.modes_.emplace_back(0.0, square);
+  made.shapes_ = shapes;
+  made.rate_shapes_ = MatrixXd::Zero(shapes.rows(), shapes.cols());
+  made.inverse_ = shapes.transpose() * mass;
+  for (const auto& mode : made.modes_) made.fastest_ = std::max(made.fastest_, mode.omega);
+  return made;
+}
+
 MatrixXd ModalSystem::derivative(int order) const {
   const auto m = std::ssize(modes_);
   MatrixXd rows(dof(), 2 * m);

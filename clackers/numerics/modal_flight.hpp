@@ -58,6 +58,10 @@ class ModalSystem {
                                          const Eigen::MatrixXd& damping,
                                          const Eigen::MatrixXd& stiffness);
 
+  /// The same without damping, of shapes known already, whose squares of frequencies these are.
+  static ModalSystem undamped(const Eigen::VectorXd& squares, const Eigen::MatrixXd& shapes,
+                              const Eigen::MatrixXd& mass);
+
   /// The motion u = basis q, whose coordinates q = inverse u move like this one.
   ModalSystem seen_through(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& inverse) const;
 

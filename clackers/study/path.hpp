@@ -24,8 +24,8 @@ struct PathRequest {
 
 struct PathStudy {
   /// Orders, a row a method and path, of u (maximum over x and t) and of v in L1 and L2 over x and t, with those to
-  /// expect of data with a kink in u and a jump in v. Then the errors of the finest mesh: e_total against the bars and, up
-  /// to 200 elements, e_time against the exact motion of the mesh, e_space between both. Then curves of e_total and
+  /// expect of data with a kink in u and a jump in v. Then the errors of the finest mesh: e_total against the bars and, where
+  /// it is known, e_time against the exact motion of the mesh, e_space between both. Then curves of e_total and
   /// e_space over h, of the first path and eight methods. With several paths a table for each method: e_time of all steps
   /// of a mesh, and the step at which it equals e_space.
   std::vector<record::Sheet> sheets;

@@ -83,18 +83,27 @@ TEST(Path, SeparatesTheErrorOfTheMesh) {
   falling.case_name = "bouncing-bar";
   falling.levels = 1;
   EXPECT_NEAR(by_method(follow_path(falling).sheets[1])["newmark"][5], 0.0, 0.01);
-  // Of finer meshes the exact motion is not known.
-  falling.settings = {{"elements", 170.0}, {"t_end", 1.0}};
-  const auto large = follow_path(falling);
-  for (const auto& row : large.runs.rows) {
-    const bool is_known = record::number_in(row[1]) <= 200.0;
-    EXPECT_EQ(std::isnan(record::number_in(row[5])), !is_known);
-    EXPECT_EQ(std::isnan(record::number_in(row[6])), !is_known);
-    EXPECT_LT(record::number_in(row[4]), 0.05);
-  }
-  EXPECT_EQ(large.sheets[2].columns.size(), 3u);
-  falling.settings = {{"elements", 300.0}, {"t_end", 1.0}};
-  EXPECT_EQ(follow_path(falling).sheets[2].columns.size(), 2u);
+  // Of finer meshes the exact motion is not known, and of some not whether their contact opens.
+  const auto unknown_of = [&](const cases::Settings& settings) {
+    falling.settings = settings;
+    const auto large = follow_path(falling);
+    std::size_t unknown = 0;
+    for (const auto& row : large.runs.rows) {
+      const bool is_known = !std::isnan(record::number_in(row[5]));
+      if (!is_known) ++unknown;
+      EXPECT_EQ(std::isnan(record::number_in(row[6])), !is_known);
+      EXPECT_LT(record::number_in(row[4]), 0.1);
+    }
+    EXPECT_EQ(large.sheets[2].columns.size(), unknown < large.runs.rows.size() ? 3u : 2u);
+    return unknown;
+  };
+  falling.samples_per_level = 3;
+  EXPECT_GT(unknown_of({{"elements", 60.0}, {"mass", "lumped"}, {"eta", 1.0}}), 0u);
+  falling.case_name = "string-on-obstacle";
+  EXPECT_EQ(unknown_of({{"elements", 190.0}, {"t_end", 0.1}}), 2u);
+  falling.samples_per_level = 2;
+  falling.levels = 2;
+  EXPECT_EQ(unknown_of({{"elements", 210.0}, {"t_end", 0.1}}), 4u);
   falling.settings = {};
   // A mass that strikes is no node.
   falling.case_name = "mass-on-bar";

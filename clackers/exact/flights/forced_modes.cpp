@@ -6,12 +6,14 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
+#include "clackers/numerics/tridiagonal_modes.hpp"
 
 namespace clackers::exact {
 
@@ -20,8 +22,78 @@ using Matrix = ForcedModes::Matrix;
 using Vector = ForcedModes::Vector;
 using Complex = std::complex<double>;
 
+namespace {
+
+// A matrix of few entries that are not 0, by its columns.
+class Sparse {
+ public:
+  explicit Sparse(const Matrix& x) : rows_(x.rows()), columns_(std::size_t(x.cols())) {
+    for (Index j = 0; j < x.cols(); ++j)
+      for (Index i = 0; i < rows_; ++i)
+        if (x(i, j) != 0.0) columns_[std::size_t(j)].emplace_back(i, x(i, j));
+  }
+  Matrix times(const Matrix& x) const {
+    Matrix y = Matrix::Zero(rows_, x.cols());
+    for (std::size_t j = 0; j < columns_.size(); ++j)
+      for (const auto& [i, entry] : columns_[j]) y.row(i) += entry * x.row(Index(j));
+    return y;
+  }
+  // this' x this of a symmetric x.
+  Matrix reduced(const Matrix& x) const {
+    Matrix y = Matrix::Zero(rows_, std::ssize(columns_));
+    for (std::size_t j = 0; j < columns_.size(); ++j)
+      for (const auto& [i, entry] : columns_[j]) y.col(Index(j)) += entry * x.col(i);
+    Matrix z = Matrix::Zero(y.cols(), y.cols());
+    for (std::size_t j = 0; j < columns_.size(); ++j)
+      for (const auto& [i, entry] : columns_[j]) z.row(Index(j)) += entry * y.row(i);
+    return 0.5 * (z + z.transpose());
+  }
+
+ private:
+  Index rows_;
+  std::vector<std::vector<std::pair<Index, double>>> columns_;
+};
+
+// basis' (x + rest) basis, if it has three diagonals.
+std::optional<numerics::Tridiagonal> tridiagonal(const Matrix& x, const Matrix& rest,
+                                                 const Matrix& basis) {
+  const auto n = std::size_t(basis.cols());
+  numerics::Tridiagonal made{std::vector<numerics::DoubleDouble>(n),
+                             std::vector<numerics::DoubleDouble>(n)};
+  std::vector<std::vector<Index>> columns(std::size_t(x.rows()));  // of each row of the basis
+  for (Index j = 0; j < basis.cols(); ++j)
+    for (Index i = 0; i < basis.rows(); ++i)
+      if (basis(i, j) != 0.0) columns[std::size_t(i)].push_back(j);
+  for (Index b = 0; b < x.cols(); ++b)
+    for (Index a = 0; a < x.rows(); ++a) {
+      const numerics::DoubleDouble entry{x(a, b), rest.size() > 0 ? rest(a, b) : 0.0};
+      if (entry.hi == 0.0 && entry.lo == 0.0) continue;
+      for (const auto i : columns[std::size_t(a)])
+        for (const auto j : columns[std::size_t(b)]) {
+          if (j < i) continue;
+          if (j > i + 1) return std::nullopt;
+          auto& to = (i == j ? made.diagonal : made.beside)[std::size_t(i)];
+          to = to + entry * basis(a, i) * basis(b, j);
+        }
+    }
+  if (n > 0) made.beside.pop_back();
+  return made;
+}
+
+std::optional<numerics::TridiagonalModes> modes_without_defect(const model::ImpactProblem<>& problem,
+                                                               const Matrix& basis,
+                                                               const Matrix& stiffness_rest) {
+  const auto& s = problem.system;
+  if (basis.cols() == 0 || !s.damping.isZero(0.0)) return std::nullopt;
+  const auto mass = tridiagonal(s.mass, {}, basis);
+  const auto stiffness = mass ? tridiagonal(s.stiffness, stiffness_rest, basis) : std::nullopt;
+  return stiffness ? numerics::tridiagonal_modes(*stiffness, *mass) : std::nullopt;
+}
+
+}  // namespace
+
 ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view who,
-                         const Matrix& basis, const Vector& offset)
+                         const Matrix& basis, const Vector& offset, const Matrix& stiffness_rest)
     : mass_(problem.system.mass),
       damping_(problem.system.damping),
       stiffness_(problem.system.stiffness),
@@ -31,27 +103,31 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
   if (problem.system.nonlinear || (add_load && load == nullptr))
     refuse(who, "system", "with a nonlinear force or any load", "linear, with harmonic loads", {},
            "linear-only");
-  const auto reduced = [&](const Matrix& x) {
-    const Matrix y = basis.transpose() * x * basis;
-    return Matrix(0.5 * (y + y.transpose()));
-  };
-  auto system = numerics::ModalSystem::make(reduced(mass_), reduced(damping_), reduced(stiffness_));
-  if (!system)
-    throw InputError(
-        fmt::format("{}: two modes that the damping couples have the same eigenvalue and "
-                    "the same shape, or nearly so; allowed: motions that are sums of "
-                    "modes. Change a number of the damping matrix a little.",
-                    who),
-        "out-of-range");
-  system_ = std::move(*system);
+  const Sparse onto(basis), onto_size(basis.cwiseAbs());
+  const Matrix reduced_mass = onto.reduced(mass_);
+  if (const auto modes = modes_without_defect(problem, basis, stiffness_rest)) {
+    system_ = numerics::ModalSystem::undamped(modes->squares, modes->shapes, reduced_mass);
+    square_errors_ = modes->square_errors;
+  } else {
+    auto system = numerics::ModalSystem::make(reduced_mass, onto.reduced(damping_),
+                                              onto.reduced(stiffness_));
+    if (!system)
+      throw InputError(
+          fmt::format("{}: two modes that the damping couples have the same eigenvalue and "
+                      "the same shape, or nearly so; allowed: motions that are sums of "
+                      "modes. Change a number of the damping matrix a little.",
+                      who),
+          "out-of-range");
+    system_ = std::move(*system);
+  }
   for (int order = 0; order <= 3; ++order) {
     const Matrix of_modes = system_.derivative(order);
-    derivatives_.push_back(basis * of_modes);
-    derivative_sizes_.push_back(basis.cwiseAbs() * of_modes.cwiseAbs());
+    derivatives_.push_back(onto.times(of_modes));
+    derivative_sizes_.push_back(onto_size.times(of_modes.cwiseAbs()));
   }
   const Index n = mass_.rows(), free = dof();
   const Matrix of_forces =
-      free > 0 ? numerics::solved(reduced(mass_), basis.transpose()) : Matrix(Matrix::Zero(0, n));
+      free > 0 ? numerics::solved(reduced_mass, basis.transpose()) : Matrix(Matrix::Zero(0, n));
   const Matrix inverse = system_.inverse();
   impulse_response_ = inverse.rightCols(free) * of_forces;
   inverse_.resize(2 * free, 2 * n);
@@ -59,11 +135,18 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
     inverse_ = inverse;
   else
     inverse_ << inverse.leftCols(free) * (of_forces * mass_), impulse_response_ * mass_;
-  const Matrix inverse_mass = basis * of_forces;
-  if (load != nullptr)
-    for (const auto& f : load->forces())
-      add_force(Vector::Unit(n, f.dof).cast<Complex>() * std::polar(f.amplitude, f.phase),
-                f.frequency, inverse_mass, who, f.dof);
+  const Matrix inverse_mass = onto.times(of_forces);
+  if (load != nullptr) {
+    std::vector<std::pair<model::HarmonicForce, Eigen::VectorXcd>> loads;  // one of each frequency
+    for (const auto& f : load->forces()) {
+      auto all = std::ranges::find(loads, f.frequency,
+                                   [](const auto& other) { return other.first.frequency; });
+      if (all == loads.end()) all = loads.insert(all, {f, Eigen::VectorXcd::Zero(n)});
+      all->second[f.dof] += std::polar(f.amplitude, f.phase);
+    }
+    for (const auto& [f, applied] : loads)
+      add_force(applied, f.frequency, inverse_mass, who, f.dof);
+  }
   if (!offset.isZero(0.0)) {
     add_force((-stiffness_ * offset).cast<Complex>(), 0.0, inverse_mass, who, 0);
     forces_.back().applied.setZero();  // the structure's own
@@ -97,7 +180,7 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
     }
     if (!(std::abs(dynamic) > 1e-8 * size))
       throw InputError(
-          fmt::format("{}: the load on degree of freedom {} has {:.6g} rad/s, the frequency of an "
+          fmt::format("{}: a load on degree of freedom {} has {:.6g} rad/s, the frequency of an "
                       "undamped mode; allowed: 1e-8 of it away. The response would grow without a "
                       "bound; change the frequency, or add damping.",
                       who, dof_of_load + 1, frequency),
@@ -105,9 +188,19 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
     force.steady[j] = load_of_mode / dynamic;
     force.steady[n + j] = turn * force.steady[j] - g[j];
   }
-  Eigen::VectorXcd left(2 * mass_.rows());
-  left << derivatives_[0] * g, derivatives_[1] * g - force.acceleration;
-  force.defect_per_time = (inverse_.cast<Complex>() * left).cwiseAbs();
+  if (square_errors_.size() > 0) {
+    force.defect_per_time =
+        2.0 * double(n + 4) * epsilon * (impulse_response_.cwiseAbs() * applied.cwiseAbs());
+    for (Index j = 0; j < n; ++j)
+      force.defect_per_time[n + j] +=
+          4.0 * epsilon *
+          (system_.modes()[std::size_t(j)].omega_square + frequency * frequency) *
+          std::abs(force.steady[j]);
+  } else {
+    Eigen::VectorXcd left(2 * mass_.rows());
+    left << derivatives_[0] * g, derivatives_[1] * g - force.acceleration;
+    force.defect_per_time = (inverse_.cast<Complex>() * left).cwiseAbs();
+  }
   // What the force itself rounds, where it is that of an offset.
   if (frequency == 0.0)
     force.defect_per_time +=
@@ -119,6 +212,7 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
 // What the modes leave of the equations of the structure and of their own inverse, and the rounding of
 // that.
 void ForcedModes::find_residuals() {
+  if (square_errors_.size() > 0) return;
   const Index n = dof(), all = mass_.rows();
   const double rounding = 2.0 * double(all) * epsilon;
   Matrix whole(2 * all, 2 * n), whole_size(2 * all, 2 * n);
@@ -135,6 +229,21 @@ void ForcedModes::find_residuals() {
       (impulse_response_ * left).cwiseAbs() + rounding * impulse_response_.cwiseAbs() * size;
 }
 
+// Without a defect only what rounding does.
+Vector ForcedModes::shift(const Vector& whole) const {
+  if (square_errors_.size() == 0) return basis_residual_ * whole;
+  Vector sums(inverse_.cols());
+  sums << derivative_sizes_[0] * whole, derivative_sizes_[1] * whole;
+  return 2.0 * double(mass_.rows()) * epsilon * (inverse_.cwiseAbs() * sums);
+}
+
+Vector ForcedModes::defect(const Vector& whole) const {
+  if (square_errors_.size() == 0) return force_residual_ * whole;
+  Vector made = Vector::Zero(whole.size());
+  made.tail(dof()) = square_errors_.cwiseProduct(whole.head(dof()));
+  return made;
+}
+
 Vector ForcedModes::derived(const Vector& row) const {
   const Index n = dof();
   Vector next(2 * n);
@@ -144,6 +253,12 @@ Vector ForcedModes::derived(const Vector& row) const {
     next[n + j] = row[j] - 2.0 * mode.sigma * row[n + j];
   }
   return next;
+}
+
+Matrix ForcedModes::change(const Matrix& u, const Matrix& v) const {
+  Matrix both(u.rows() + v.rows(), u.cols());
+  both << u, v;
+  return numerics::product_of_quarters(inverse_, both);
 }
 
 Vector ForcedModes::impulse(const Vector& direction) const { return impulse_response_ * direction; }
@@ -300,8 +415,8 @@ Vector ForcedModes::local_errors(const Vector& z, double t, double s) const {
     error += epsilon * (16.0 + 2.0 * force.frequency * (t + s)) * response;
     growth += force.defect_per_time;
   }
-  growth += force_residual_ * whole;
-  const Vector shift = basis_residual_ * whole;
+  growth += defect(whole);
+  const Vector shift = this->shift(whole);
   for (Index j = 0; j < n; ++j) {
     const auto& mode = system_.modes()[std::size_t(j)];
     const double turned = s * std::hypot(mode.omega, 2.0 * mode.sigma);

@@ -18,7 +18,8 @@ namespace clackers::exact {
 ///
 /// The error of a flight is bounded by the defect of what was computed: the modes as they stand solve
 /// their own equations but for rounding, and what they leave of those of the structure acts as a
-/// force.
+/// force. Undamped structures of three diagonals, such as meshes of bars, have modes without such a defect
+/// (tridiagonal_modes.hpp).
 class ForcedModes {
  public:
   using Matrix = Eigen::MatrixXd;
@@ -31,9 +32,10 @@ class ForcedModes {
       : ForcedModes(problem, who, Matrix::Identity(problem.dof(), problem.dof()),
                     Vector::Zero(problem.dof())) {}
   /// The same structure where constraints without friction leave u = offset + basis q. z is the
-  /// modal state of q; u, v and a are of the structure.
+  /// modal state of q; u, v and a are of the structure. `stiffness_rest` is what the stiffness is more than
+  /// its doubles say; empty for nothing.
   ForcedModes(const model::ImpactProblem<>& problem, std::string_view who, const Matrix& basis,
-              const Vector& offset);
+              const Vector& offset, const Matrix& stiffness_rest = {});
 
   struct Force {
     double frequency = 0.0;                 ///< [rad/s]
@@ -96,9 +98,7 @@ class ForcedModes {
   double rounding(const Observable& seen, const Sizes& size, double t) const;
   /// z of these displacements and velocities with what the constraints exclude removed from them, the
   /// momenta along the constrained motion as they are.
-  Vector change(const Vector& u, const Vector& v) const {
-    return inverse_.leftCols(u.size()) * u + inverse_.rightCols(v.size()) * v;
-  }
+  Matrix change(const Matrix& u, const Matrix& v) const;
   /// z of the steady response.
   Vector steady(double t) const;
   /// z of the motion without the steady response s seconds later; `push` 0 without constant forces on
@@ -122,6 +122,10 @@ class ForcedModes {
   void add_force(const Eigen::VectorXcd& applied, double frequency, const Matrix& inverse_mass,
                  std::string_view who, int dof);
   void find_residuals();
+  /// How far z may be from the state that it stands for, and what acts as a force on each mode, where the
+  /// modes and the steady response have these sizes.
+  Vector shift(const Vector& whole) const;
+  Vector defect(const Vector& whole) const;
 
   Matrix mass_, damping_, stiffness_;
   numerics::ModalSystem system_;
@@ -129,6 +133,7 @@ class ForcedModes {
   std::vector<Matrix> derivatives_, derivative_sizes_;
   Matrix inverse_, impulse_response_;       // z by (u, v), and by impulses
   Matrix basis_residual_, force_residual_;  // of z: its own error, and the rate of it
+  Vector square_errors_;  // of modes without a defect, instead of the residuals
   std::vector<numerics::ModalState> push_;  // what constant forces add to dz/dt; empty for none
   std::vector<Force> forces_;
 };

@@ -48,6 +48,10 @@ auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
         const auto opens = opening(i, level[i]);
         if (begins_[i] == Begin::by_speed && come_to_rest(i, level[i], opens.has_value()))
           return next_contacts();
+        // Where it opens by less than its error, and then closes.
+        if (!opens && begins_[i] == Begin::by_acceleration && watch(i, 0.0).third < 0.0 &&
+            problem_.contacts[i].restitution == 0.0)
+          return {{i, 0.0, level[i] / certain_gap, 0.0, true}};
         if (!opens) refuse_closed(i, watch(i, 0.0), level[i]);
         from[i] = *opens;
       }
@@ -121,10 +125,41 @@ std::optional<double> PiecewiseMotion::Builder::opening(std::size_t i, double le
     // Half of what the third derivative gives; the other half is for the fourth.
     const double s = std::cbrt(12.0 * level / gap.third);
     const double fourth = modes().fourth_bound(watched(i), flight().free, m_.end_);
-    return 0.25 * fourth * s <= 0.5 * gap.third ? std::optional(s) : std::nullopt;
+    if (0.25 * fourth * s <= 0.5 * gap.third) return s;
+    return climb(i, 3, 4.0 * gap.third / fourth, level);
   }
-  const auto s = departure(gap, level);
-  return s ? std::optional(from + *s) : std::nullopt;
+  if (const auto s = departure(gap, level)) return from + *s;
+  if (begin != Begin::by_acceleration || from > 0.0) return std::nullopt;
+  return climb(i, 2, 3.0 * gap.second / gap.third_bound, level);
+}
+
+// That derivative of the start is certain to 1 % (resting()), a later one to what the error of the next adds: the true
+// gap is positive as long as the computed one is above a twentieth of what that derivative alone would make.
+std::optional<double> PiecewiseMotion::Builder::climb(std::size_t i, int order, double first,
+                                                      double level) const {
+  constexpr int most_steps = 1000;
+  const auto begin = watch(i, 0.0);
+  const double doubt = 0.05 * (order == 2 ? begin.second : begin.third);
+  double s = 0.45 * first;
+  for (int step = 0; doubt > 0.0 && step < most_steps; ++step) {
+    auto gap = watch(i, s);
+    if (gap.value > level) {
+      const State now{flight().regime, flight().t, m_.total(flight(), flight().t),
+                      flight().covariance};
+      const double next_error = deviation(now, row(i).seen.by_state.col(order + 1));
+      return next_error * s <= 0.8 * doubt ? std::optional(s) : std::nullopt;
+    }
+    const double second = doubt * (order == 2 ? 1.0 : s), slope = second * s / (order - 1);
+    gap.value -= slope * s / order;
+    gap.slope -= slope;
+    gap.second -= second;
+    gap.curvature += 2.0 * second;
+    if (order == 3) gap.third_bound += doubt;
+    const double far = std::min(s, 0.5 * numerics::next_zero(gap).lo);
+    if (!(gap.value > 0.0 && far > epsilon * s)) return std::nullopt;
+    s += far;
+  }
+  return std::nullopt;
 }
 
 auto PiecewiseMotion::Builder::search(const std::vector<double>& level,

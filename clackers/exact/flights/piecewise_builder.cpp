@@ -10,6 +10,7 @@
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/numerics/double_double.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 
 #ifdef CLACKERS_HAS_ARB
@@ -172,6 +173,7 @@ std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
   if (const auto* load = problem_.system.add_load.target<model::HarmonicLoad>())
     forces = load->forces();
   std::vector<std::size_t> held;
+  MatrixXd rest = MatrixXd::Zero(problem_.dof(), problem_.dof());  // of the stiffness with springs
   if (closed.back()) structure.system.damping *= law_.damping_after_impact;
   for (std::size_t j = 0; j < contacts_.size(); ++j) {
     if (!closed[j]) continue;
@@ -181,7 +183,15 @@ std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
     }
     const auto& [b, gap, restitution] = contacts_[j];
     const double stiffness = stiffnesses_[j - springs()];
-    structure.system.stiffness += stiffness * b * b.transpose();
+    for (Index row = 0; row < b.size(); ++row)
+      for (Index column = 0; column < b.size(); ++column) {
+        if (b[row] == 0.0 || b[column] == 0.0) continue;
+        auto& entry = structure.system.stiffness(row, column);
+        const auto sum = numerics::DoubleDouble{entry, rest(row, column)} +
+                         numerics::two_product(stiffness, b[row]) * b[column];
+        entry = sum.hi;
+        rest(row, column) = sum.lo;
+      }
     for (Index i = 0; i < b.size(); ++i)
       if (const double force = stiffness * gap * b[i]; force != 0.0)
         forces.push_back({int(i), force, 0.0, 0.0});
@@ -189,7 +199,7 @@ std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
   if (!forces.empty()) structure.system.add_load = model::HarmonicLoad(std::move(forces));
   const auto constrained = constraint(held);
   const auto& modes =
-      m_.regimes_.emplace_back(structure, m_.who_, constrained.basis, constrained.offset);
+      m_.regimes_.emplace_back(structure, m_.who_, constrained.basis, constrained.offset, rest);
   const VectorXd none = VectorXd::Zero(m_.dof());
   std::vector<Row> rows;
   for (const auto& contact : contacts_)
@@ -275,10 +285,7 @@ std::size_t PiecewiseMotion::Builder::after_impact(std::size_t regime) {
 MatrixXd PiecewiseMotion::Builder::change(std::size_t from, std::size_t to) const {
   const auto &before = m_.regimes_[from], &after = m_.regimes_[to];
   if (from == to) return MatrixXd::Identity(2 * before.dof(), 2 * before.dof());
-  MatrixXd map(2 * after.dof(), 2 * before.dof());
-  for (Index i = 0; i < map.cols(); ++i)
-    map.col(i) = after.change(before.derivative(0).col(i), before.derivative(1).col(i));
-  return map;
+  return after.change(before.derivative(0), before.derivative(1));
 }
 
 void PiecewiseMotion::Builder::change_regime() {

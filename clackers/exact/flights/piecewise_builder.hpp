@@ -11,6 +11,7 @@
 #include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/numerics/first_root.hpp"
 #include "clackers/numerics/lcp.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::certified {
 class FlightsEnclosure;
@@ -95,7 +96,9 @@ class PiecewiseMotion::Builder {
   void change_regime();
   MatrixXd change(std::size_t from, std::size_t to) const;
   MatrixXd mapped(const MatrixXd& map, const MatrixXd& covariance) const {
-    return m_.has_bounds_ ? MatrixXd(map * covariance * map.transpose()) : MatrixXd();
+    if (!m_.has_bounds_) return {};
+    const MatrixXd half = numerics::product_of_quarters(map, covariance);
+    return numerics::product_of_quarters(map, half.transpose());
   }
   void start();
   void begin(State state);
@@ -123,6 +126,9 @@ class PiecewiseMotion::Builder {
   /// From where on contact i is open, or pressed, for certain; nothing where its rebound is lower
   /// than its error.
   std::optional<double> opening(std::size_t i, double level) const;
+  /// The same of one that begins by its derivative of order 2 or 3 and is open up to `first` for certain, in
+  /// steps: bounds on the next derivative of all modes are too large for one step where a mesh has many.
+  std::optional<double> climb(std::size_t i, int order, double first, double level) const;
   std::vector<Closing> search(const std::vector<double>& level, const std::vector<double>& from,
                               double to) const;
   Closing soft_landing(std::size_t i, const Crossing& found) const;

@@ -88,6 +88,25 @@ double PiecewiseMotion::factor(std::size_t flight) const {
   return std::sqrt(4.0 * double(dof()) * double(flight + 1));
 }
 
+namespace {
+
+// Square roots of row . (covariance row) of each row; without damping half of each row is 0.
+VectorXd deviations(const MatrixXd& rows, const MatrixXd& covariance) {
+  const Index m = rows.cols() / 2;
+  const bool no_rates = rows.rightCols(m).isZero(0.0);
+  const Index first = !no_rates && rows.leftCols(m).isZero(0.0) ? m : 0,
+              count = no_rates || first > 0 ? m : 2 * m;
+  const auto some = rows.middleCols(first, count);
+  return (some * covariance.block(first, first, count, count))
+      .cwiseProduct(some)
+      .rowwise()
+      .sum()
+      .cwiseMax(0.0)
+      .cwiseSqrt();
+}
+
+}  // namespace
+
 Kinematics PiecewiseMotion::error_bound(double t) const {
   const Index n = dof();
   const VectorXd least = VectorXd::Constant(n, has_bounds_ ? 0.0 : infinity);
@@ -110,10 +129,7 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
       const MatrixXd& rows = modes.derivative(order);
       const VectorXd rounding =
           epsilon * double(n + 4) * (modes.derivative_size(order) * whole + more);
-      for (Index i = 0; i < n; ++i) {
-        const double carried = std::sqrt(rows.row(i).dot(covariance * rows.row(i).transpose()));
-        to[i] = std::max(to[i], factor(k) * carried + rounding[i]);
-      }
+      to = to.cwiseMax(factor(k) * deviations(rows, covariance) + rounding);
     };
     raise(bound.u, 0, modes.offset().cwiseAbs());
     raise(bound.v, 1, VectorXd::Zero(n));

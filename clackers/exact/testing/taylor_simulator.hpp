@@ -28,7 +28,8 @@ class TaylorSimulator {
       : problem_(problem),
         damping_(problem.system.damping.cast<Real>()),
         stiffness_(problem.system.stiffness.cast<Real>()),
-        inverse_mass_(RealMatrix(problem.system.mass.cast<Real>()).inverse()) {
+        inverse_mass_(RealMatrix(problem.system.mass.cast<Real>()).inverse()),
+        step_(longest_step(inverse_mass_ * stiffness_)) {
     if (const auto* load = problem.system.add_load.target<model::HarmonicLoad>())
       forces_ = load->forces();
     std::vector<std::size_t> touching;
@@ -153,6 +154,12 @@ class TaylorSimulator {
     throw std::logic_error("no set of closed contacts");
   }
 
+  // No more than 8 radians of any mode, so that the terms fall to 1e-28 and below.
+  static Real longest_step(const RealMatrix& squares) {
+    const double fastest =
+        std::sqrt(squares.cwiseAbs().rowwise().sum().maxCoeff().convert_to<double>());
+    return std::min(0.25, 8.0 / std::max(fastest, 1.0));
+  }
   std::vector<Real> gap_terms(std::size_t i) const {
     std::vector<Real> gaps;
     const auto b = row(i);
@@ -266,9 +273,9 @@ class TaylorSimulator {
   }
 
   static constexpr int terms = 60;
-  const Real step_ = Real(1) / 4;
   const model::ImpactProblem<>& problem_;
   RealMatrix damping_, stiffness_, inverse_mass_;
+  Real step_;
   std::vector<model::HarmonicForce> forces_;
   Real start_;
   std::vector<RealVector> series_, multipliers_;

@@ -1,0 +1,211 @@
+#include "clackers/numerics/tridiagonal_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "clackers/numerics/linear_algebra.hpp"
+
+namespace clackers::numerics {
+namespace {
+
+using Eigen::Index;
+using Vector = std::vector<DoubleDouble>;
+
+// What a few operations in double-double round at most, of the sum of the sizes.
+constexpr double rounding = 0x1p-96;
+constexpr double most_shape_error = 0x1p-60, least_square = 0x1p-80;
+constexpr int most_iterations = 6;
+
+DoubleDouble quotient(const DoubleDouble& x, const DoubleDouble& y) {
+  const double first = x.hi / y.hi;
+  const auto rest = x - y * first;
+  return quick_two_sum(first, rest.hi / y.hi);
+}
+
+DoubleDouble root(const DoubleDouble& x) {
+  const double first = std::sqrt(x.hi);
+  return quick_two_sum(first, (x - two_product(first, first)).hi / (2.0 * first));
+}
+
+DoubleDouble dot(const Vector& x, const Vector& y) {
+  DoubleDouble sum;
+  for (std::size_t i = 0; i < x.size(); ++i) sum = sum + x[i] * y[i];
+  return sum;
+}
+
+Vector product(const Tridiagonal& a, const Vector& x) {
+  Vector y(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) y[i] = a.diagonal[i] * x[i];
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    y[i] = y[i] + a.beside[i] * x[i + 1];
+    y[i + 1] = y[i + 1] + a.beside[i] * x[i];
+  }
+  return y;
+}
+
+// Of the sizes of the entries.
+double size_of_product(const Tridiagonal& a, const Vector& x, std::size_t i) {
+  double size = std::abs(a.diagonal[i].hi * x[i].hi);
+  if (i > 0) size += std::abs(a.beside[i - 1].hi * x[i - 1].hi);
+  if (i + 1 < x.size()) size += std::abs(a.beside[i].hi * x[i + 1].hi);
+  return size;
+}
+
+// x of (K - square M) x = y, by Gauss's elimination with row exchanges; where the matrix is singular a
+// large multiple of what it maps to 0.
+Vector solved(const Tridiagonal& k, const Tridiagonal& m, const DoubleDouble& square, Vector y) {
+  const auto n = y.size();
+  struct Row {
+    DoubleDouble here, next, second;
+  };
+  std::vector<Row> rows(n);
+  double largest = std::numeric_limits<double>::min();
+  const auto entry = [&](const DoubleDouble& a, const DoubleDouble& b) { return a - square * b; };
+  Row below{entry(k.diagonal[0], m.diagonal[0]), {}, {}};
+  if (n > 1) below.next = entry(k.beside[0], m.beside[0]);
+  for (std::size_t i = 0; i < n; ++i) {
+    Row row = below;
+    if (i + 1 < n) {
+      const auto beside = entry(k.beside[i], m.beside[i]);
+      below = {beside, entry(k.diagonal[i + 1], m.diagonal[i + 1]), {}};
+      if (i + 2 < n) below.second = entry(k.beside[i + 1], m.beside[i + 1]);
+      if (std::abs(below.here.hi) > std::abs(row.here.hi)) {
+        std::swap(row, below);
+        std::swap(y[i], y[i + 1]);
+      }
+      if (row.here.hi != 0.0) {
+        const auto share = quotient(below.here, row.here);
+        below = {below.next - share * row.next, below.second - share * row.second, {}};
+        y[i + 1] = y[i + 1] - share * y[i];
+      } else {
+        below = {below.next, below.second, {}};
+      }
+    }
+    largest = std::max({largest, std::abs(row.here.hi), std::abs(row.next.hi)});
+    rows[i] = row;
+  }
+  for (auto i = n; i-- > 0;) {
+    auto& [here, next, second] = rows[i];
+    if (std::abs(here.hi) < rounding * largest) here = {rounding * largest, 0.0};
+    if (i + 1 < n) y[i] = y[i] - next * y[i + 1];
+    if (i + 2 < n) y[i] = y[i] - second * y[i + 2];
+    y[i] = quotient(y[i], here);
+  }
+  return y;
+}
+
+struct Mode {
+  DoubleDouble square;
+  double residual = std::numeric_limits<double>::infinity();  // a bound, in the norm of M^-1
+  Vector shape;
+};
+
+// Masses that nothing joins to others, from degree of freedom `first` to that before `last`.
+class Block {
+ public:
+  Block(const Tridiagonal& stiffness, const Tridiagonal& mass, std::size_t first, std::size_t last)
+      : k_(part(stiffness, first, last)), m_(part(mass, first, last)) {
+    for (std::size_t i = 0; i < size(); ++i) {
+      double least = m_.diagonal[i].hi;
+      if (i > 0) least -= std::abs(m_.beside[i - 1].hi);
+      if (i + 1 < size()) least -= std::abs(m_.beside[i].hi);
+      least_mass_ = std::min(least_mass_, least);
+    }
+  }
+
+  // Nothing where they are not found.
+  std::optional<std::vector<Mode>> modes() const {
+    const auto near = normal_modes(rounded(k_), rounded(m_));
+    if (!near) return std::nullopt;
+    std::vector<Mode> modes;
+    for (Index j = 0; j < near->shapes.cols(); ++j) {
+      Mode mode;
+      for (const double x : near->shapes.col(j)) mode.shape.push_back({x, 0.0});
+      sharpen(mode, near->squares.cwiseAbs().maxCoeff());
+      modes.push_back(std::move(mode));
+    }
+    for (std::size_t j = 0; j < modes.size(); ++j) {
+      double apart = std::numeric_limits<double>::infinity();
+      for (const auto i : {j - 1, j + 1})
+        if (i < modes.size())
+          apart = std::min(apart, std::abs((modes[j].square - modes[i].square).hi) -
+                                      modes[i].residual - modes[j].residual);
+      if (!(2.0 * modes[j].residual <= most_shape_error * apart)) return std::nullopt;
+    }
+    return modes;
+  }
+
+ private:
+  static Tridiagonal part(const Tridiagonal& a, std::size_t first, std::size_t last) {
+    return {{a.diagonal.begin() + Index(first), a.diagonal.begin() + Index(last)},
+            {a.beside.begin() + Index(first), a.beside.begin() + Index(last) - 1}};
+  }
+  std::size_t size() const { return k_.diagonal.size(); }
+  static Eigen::MatrixXd rounded(const Tridiagonal& a) {
+    const auto n = Index(a.diagonal.size());
+    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(n, n);
+    for (Index i = 0; i < n; ++i) x(i, i) = a.diagonal[std::size_t(i)].hi;
+    for (Index i = 0; i + 1 < n; ++i) x(i, i + 1) = x(i + 1, i) = a.beside[std::size_t(i)].hi;
+    return x;
+  }
+
+  void sharpen(Mode& mode, double largest) const {
+    for (int k = 0; k < most_iterations; ++k) {
+      if (k > 0) mode.shape = solved(k_, m_, mode.square, product(m_, mode.shape));
+      auto momenta = product(m_, mode.shape);
+      const auto norm = root(dot(mode.shape, momenta));
+      for (auto* vector : {&mode.shape, &momenta})
+        for (auto& x : *vector) x = quotient(x, norm);
+      const auto forces = product(k_, mode.shape);
+      mode.square = dot(mode.shape, forces);
+      double sum = 0.0;
+      for (std::size_t i = 0; i < size(); ++i) {
+        const double residual = std::abs((forces[i] - mode.square * momenta[i]).hi) +
+                                rounding * (size_of_product(k_, mode.shape, i) +
+                                            largest * size_of_product(m_, mode.shape, i));
+        sum += residual * residual;
+      }
+      const double before = std::exchange(mode.residual, std::sqrt(sum / least_mass_));
+      if (mode.residual == 0.0 ||
+          (mode.residual < 0x1p-84 * largest && mode.residual > 0.5 * before))
+        break;
+    }
+  }
+
+  Tridiagonal k_, m_;
+  double least_mass_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+std::optional<TridiagonalModes> tridiagonal_modes(const Tridiagonal& stiffness,
+                                                  const Tridiagonal& mass) {
+  const auto n = stiffness.diagonal.size();
+  std::vector<std::pair<std::size_t, Mode>> modes;
+  for (std::size_t first = 0, last = 0; first < n; first = last) {
+    for (last = first + 1;
+         last < n && (stiffness.beside[last - 1].hi != 0.0 || mass.beside[last - 1].hi != 0.0);)
+      ++last;
+    const Block block(stiffness, mass, first, last);
+    auto some = block.modes();
+    if (!some) return std::nullopt;
+    for (auto& mode : *some) modes.emplace_back(first, std::move(mode));
+  }
+  std::ranges::stable_sort(modes, {}, [](const auto& mode) { return mode.second.square.hi; });
+  TridiagonalModes found{Eigen::VectorXd(n), Eigen::VectorXd(n),
+                         Eigen::MatrixXd::Zero(Index(n), Index(n))};
+  for (Index j = 0; j < Index(n); ++j) {
+    const auto& [first, mode] = modes[std::size_t(j)];
+    const auto& [square, residual, shape] = mode;
+    found.squares[j] = square.hi > least_square * modes.back().second.square.hi ? square.hi : 0.0;
+    found.square_errors[j] =
+        residual + std::abs((square - DoubleDouble{found.squares[j], 0.0}).hi);
+    for (std::size_t i = 0; i < shape.size(); ++i) found.shapes(Index(first + i), j) = shape[i].hi;
+  }
+  return found;
+}
+
+}  // namespace clackers::numerics
