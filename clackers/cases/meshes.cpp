@@ -52,8 +52,7 @@ void use_mesh(Case& test_case, const Values& value, const exact::MeshedBars& mes
 
 void use_mesh(Case& test_case, const Values& value, exact::BarMesh made, double most_exact) {
   const auto& who = test_case.entry->name;
-  if (!test_case.is_mesh_only)
-    require_within(who, "elements", value("elements"), 1.0, most_exact);
+  if (!test_case.is_mesh_only) require_within(who, "elements", value("elements"), 1.0, most_exact);
   test_case.most_exact_elements = most_exact;
   test_case.problem = std::move(made.problem);
   test_case.mesh = std::move(made.mesh);
@@ -91,10 +90,10 @@ void add_contact(Case& test_case, int number, const numerics::Bounded& t, bool c
 
 std::vector<Parameter> mesh_parameters(bool is_string, double end, std::size_t bars) {
   std::vector<Parameter> list;
-  list.push_back({"elements", 16.0, "",
-                  fmt::format("a whole number, 2 <= elements <= {}",
-                              most_exact_elements / double(bars)),
-                  fmt::format("of the mesh, in each {}", is_string ? "half" : "bar")});
+  list.push_back(
+      {"elements", 16.0, "",
+       fmt::format("a whole number, 2 <= elements <= {}", most_exact_elements / double(bars)),
+       fmt::format("of the mesh, in each {}", is_string ? "half" : "bar")});
   list.push_back({"mass",
                   "massless",
                   "",

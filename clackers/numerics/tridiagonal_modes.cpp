@@ -201,8 +201,7 @@ std::optional<TridiagonalModes> tridiagonal_modes(const Tridiagonal& stiffness,
     const auto& [first, mode] = modes[std::size_t(j)];
     const auto& [square, residual, shape] = mode;
     found.squares[j] = square.hi > least_square * modes.back().second.square.hi ? square.hi : 0.0;
-    found.square_errors[j] =
-        residual + std::abs((square - DoubleDouble{found.squares[j], 0.0}).hi);
+    found.square_errors[j] = residual + std::abs((square - DoubleDouble{found.squares[j], 0.0}).hi);
     for (std::size_t i = 0; i < shape.size(); ++i) found.shapes(Index(first + i), j) = shape[i].hi;
   }
   return found;

@@ -80,9 +80,8 @@ std::optional<numerics::Tridiagonal> tridiagonal(const Matrix& x, const Matrix& 
   return made;
 }
 
-std::optional<numerics::TridiagonalModes> modes_without_defect(const model::ImpactProblem<>& problem,
-                                                               const Matrix& basis,
-                                                               const Matrix& stiffness_rest) {
+std::optional<numerics::TridiagonalModes> modes_without_defect(
+    const model::ImpactProblem<>& problem, const Matrix& basis, const Matrix& stiffness_rest) {
   const auto& s = problem.system;
   if (basis.cols() == 0 || !s.damping.isZero(0.0)) return std::nullopt;
   const auto mass = tridiagonal(s.mass, {}, basis);
@@ -109,8 +108,8 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
     system_ = numerics::ModalSystem::undamped(modes->squares, modes->shapes, reduced_mass);
     square_errors_ = modes->square_errors;
   } else {
-    auto system = numerics::ModalSystem::make(reduced_mass, onto.reduced(damping_),
-                                              onto.reduced(stiffness_));
+    auto system =
+        numerics::ModalSystem::make(reduced_mass, onto.reduced(damping_), onto.reduced(stiffness_));
     if (!system)
       throw InputError(
           fmt::format("{}: two modes that the damping couples have the same eigenvalue and "
@@ -193,8 +192,7 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
         2.0 * double(n + 4) * epsilon * (impulse_response_.cwiseAbs() * applied.cwiseAbs());
     for (Index j = 0; j < n; ++j)
       force.defect_per_time[n + j] +=
-          4.0 * epsilon *
-          (system_.modes()[std::size_t(j)].omega_square + frequency * frequency) *
+          4.0 * epsilon * (system_.modes()[std::size_t(j)].omega_square + frequency * frequency) *
           std::abs(force.steady[j]);
   } else {
     Eigen::VectorXcd left(2 * mass_.rows());

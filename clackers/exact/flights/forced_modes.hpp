@@ -133,7 +133,7 @@ class ForcedModes {
   std::vector<Matrix> derivatives_, derivative_sizes_;
   Matrix inverse_, impulse_response_;       // z by (u, v), and by impulses
   Matrix basis_residual_, force_residual_;  // of z: its own error, and the rate of it
-  Vector square_errors_;  // of modes without a defect, instead of the residuals
+  Vector square_errors_;                    // of modes without a defect, instead of the residuals
   std::vector<numerics::ModalState> push_;  // what constant forces add to dz/dt; empty for none
   std::vector<Force> forces_;
 };
