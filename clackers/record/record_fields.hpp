@@ -44,11 +44,16 @@ void fields(auto& archive, Like<Schematic::Touch> auto& x) {
   each(archive, "left", x.left, "right", x.right, "gap", x.gap);
 }
 
+void fields(auto& archive, Like<Schematic::Node> auto& x) {
+  each(archive, "x", x.x, "mass", x.mass);
+}
+
 void fields(auto& archive, Like<Schematic> auto& x) {
   each(archive, "blocks", x.blocks, "springs", x.springs, "contacts", x.contacts);
   archive.added("leftward", x.leftward);
   archive.added("lengths", x.lengths);
   archive.added("plane", x.plane);
+  archive.added("string", x.string);
 }
 
 void fields(auto& archive, Like<CaseSummary> auto& x) {

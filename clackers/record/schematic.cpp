@@ -170,4 +170,17 @@ Schematic schematic(const model::ImpactProblem<>& problem) {
   return drawing;
 }
 
+std::vector<Schematic::Node> string_nodes(const model::Mesh& mesh) {
+  std::vector<Schematic::Node> nodes;
+  const bool is_half = !mesh.nodes.front().is_fixed;
+  for (const auto& node : mesh.nodes) {
+    if (!node.dof && !node.is_fixed) continue;
+    const int mass = node.dof ? int(*node.dof) : -1;
+    nodes.push_back({node.x, mass});
+    if (is_half && node.x > 0.0) nodes.push_back({-node.x, mass});
+  }
+  std::ranges::sort(nodes, {}, &Schematic::Node::x);
+  return nodes;
+}
+
 }  // namespace clackers::record

@@ -121,6 +121,32 @@ TEST(Schematic, CasesWithABodyInThePlaneSaySo) {
   EXPECT_EQ(plane("two-pendula"), std::nullopt);
 }
 
+TEST(Schematic, StringsHaveTheirNodesFromEndToEnd) {
+  const auto drawing = [](const char* name) {
+    return tables::summary_of(cases::make(name, {{"elements", 4.0}})).drawing;
+  };
+  const auto expect_nodes = [](const std::vector<Schematic::Node>& string,
+                               const std::vector<std::pair<double, int>>& expected) {
+    ASSERT_EQ(string.size(), expected.size());
+    for (std::size_t i = 0; i < string.size(); ++i) {
+      EXPECT_EQ(string[i].x, expected[i].first);
+      EXPECT_EQ(string[i].mass, expected[i].second);
+    }
+  };
+  expect_nodes(drawing("string-on-obstacle").string,
+               {{0.0, -1}, {0.25, 0}, {0.5, 1}, {0.75, 2}, {1.0, -1}});
+  // The half to the right, without a mass in the middle.
+  expect_nodes(drawing("string-over-point").string, {{-0.5, -1},
+                                                     {-0.375, 2},
+                                                     {-0.25, 1},
+                                                     {-0.125, 0},
+                                                     {0.125, 0},
+                                                     {0.25, 1},
+                                                     {0.375, 2},
+                                                     {0.5, -1}});
+  EXPECT_TRUE(drawing("bar-wall").string.empty());
+}
+
 TEST(Schematic, IsEmptyForMoreMassesThanAreDrawn) {
   EXPECT_EQ(schematic(problem_of(MatrixXd::Identity(most_blocks, most_blocks))).blocks.size(),
             std::size_t(most_blocks));

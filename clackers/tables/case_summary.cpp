@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "clackers/exact/bodies/bar_motion.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::tables {
@@ -50,6 +51,8 @@ record::CaseSummary summary_of(const cases::Case& problem) {
   }
   summary.drawing = record::schematic(problem.problem);
   summary.drawing.plane = problem.plane;
+  if (problem.mesh && problem.bars->is_string() && !summary.drawing.blocks.empty())
+    summary.drawing.string = record::string_nodes(*problem.mesh);
   return summary;
 }
 

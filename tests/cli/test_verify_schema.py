@@ -16,7 +16,7 @@ OTHERS = (None, True, 7, 0.5, "text", [], {})
 # Fields that records of earlier versions lack.
 ADDED = {"labels", "integrator", "treatment", "cancel_step", "departure", "diagnoses", "drawing", "floor_scatter", "floor_step",
          "impact_contacts", "impact_table", "largest_step", "lengths", "lucky_share", "mismatch", "motion", "plane", "printed",
-         "refinement", "resolution", "smallest_step", "stable_step", "text", "velocity_order"}
+         "refinement", "resolution", "smallest_step", "stable_step", "string", "text", "velocity_order"}
 
 
 def places(value, path=()):

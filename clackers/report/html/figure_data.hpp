@@ -31,8 +31,8 @@ nlohmann::ordered_json rounded_list(const std::vector<double>& values);
 /// Whether the motion of a case can be played: its structure has a drawing.
 bool has_player(const record::CaseRecord& problem);
 /// What player.js draws: the displacements "u" of all masses at the times "t"; "blocks", "springs",
-/// "contacts", "leftward", "lengths" and "plane" as record::Schematic has them; "impacts"; and of each subject one of its
-/// "runs", with its own times.
+/// "contacts", "leftward", "lengths", "plane" and "string" as record::Schematic has them; "impacts"; and of each subject one
+/// of its "runs", with its own times.
 nlohmann::ordered_json player_data(const record::CaseRecord& problem);
 
 /// Curves of the performance profiles, without methods that accept none of the cases.

@@ -140,6 +140,14 @@ Json figure_specifications(const record::CaseRecord& problem) {
   for (const auto& subject : problem.subjects) names.push_back(subject.name);
   const auto masses = mass_scales(problem);
   Json all{{"response", specification_of(assets::response_vl_json, names, masses)}};
+  // A layer without rows has no times, of which the axis warns.
+  if (auto& layers = all["response"]["layer"]; problem.problem.impact_times.empty())
+    layers.erase(std::remove_if(layers.begin(), layers.end(),
+                                [](const Json& layer) {
+                                  return layer.contains("data") &&
+                                         layer["data"]["name"] == "impacts";
+                                }),
+                 layers.end());
   if (drawn_subject(problem) != nullptr)
     all["response"]["layer"].push_back(
         specification_of(assets::history_rows_vl_json, names, masses));

@@ -223,6 +223,9 @@ std::string scene_reading(const record::Schematic& drawing) {
   if (!drawing.lengths.empty())
     return "Masses hang at their lengths, drawn to the scale of the arrow, and are drawn side by side "
            "where they meet: bobs have no size.";
+  if (!drawing.string.empty())
+    return "Points are the nodes of the mesh. The arrow is the scale of displacements, which is not that of lengths along the "
+           "string; what the string may touch is drawn where it is.";
   return "Blocks are masses with their numbers, lines below and between them are springs. The arrow "
          "points along positive displacements and is their scale; a structure has no size of its own.";
 }

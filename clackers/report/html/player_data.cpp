@@ -38,6 +38,8 @@ Json player_data(const record::CaseRecord& problem) {
   for (std::size_t k = 0; k < problem.problem.impact_contacts.size(); ++k)
     impacts.push_back({{"t", rounded(problem.problem.impact_times[k])},
                        {"contact", problem.problem.impact_contacts[k]}});
+  Json string = Json::array();
+  for (const auto& node : drawing.string) string.push_back({{"x", node.x}, {"mass", node.mass}});
   Json runs = Json::array();
   for (const auto& subject : problem.subjects) {
     const auto* run = subject.shown_run();
@@ -60,7 +62,8 @@ Json player_data(const record::CaseRecord& problem) {
           {"impacts", impacts},
           {"leftward", drawing.leftward},
           {"lengths", drawing.lengths},
-          {"plane", drawing.plane ? Json(*drawing.plane) : Json(nullptr)}};
+          {"plane", drawing.plane ? Json(*drawing.plane) : Json(nullptr)},
+          {"string", string}};
 }
 
 }  // namespace clackers::report

@@ -1,6 +1,6 @@
 "use strict";
-// A system of masses as a drawing: blocks on columns, springs and stops, or bodies where they are, in one scale that
-// lets the widest motion fit. The manual's figures are drawn by it too.
+// A system of masses as a drawing: blocks on columns, springs and stops, or bodies or strings where they are, in a scale
+// that lets the widest motion fit. The manual's figures are drawn by it too.
 
 const stageWidth = 1000, stageHeight = 300, groundLevel = 262, roofLevel = 46, blockHeight = 30;
 
@@ -50,6 +50,7 @@ function drawRuler(svg, scale) {
 // Draws the system. `place(u)` moves it to these displacements; `outline(attributes)` is another one on top, which its
 // result moves, or hides without displacements; `touch(contact, u)` is where that contact flashes.
 function drawScene(svg, scene) {
+  if (scene.string?.length > 0) return drawString(svg, scene);
   return scene.plane != null || scene.lengths?.length > 0 ? drawBodies(svg, scene) : drawBlocks(svg, scene);
 }
 
@@ -104,6 +105,49 @@ function drawBlocks(svg, scene) {
       ...(right < 0 ? [] : [[placeOf(u, right) - width / 2, y[right] - blockHeight]])]);
   }
   return { place, outline, touch };
+}
+
+// A string whose nodes move up and down, in a scale of their own, above what they may touch: a point, or a line.
+function drawString(svg, scene) {
+  const nodes = scene.string, top = 28, bottom = stageHeight - 28, side = 60;
+  const levels = scene.contacts.map(({ left, gap }) => (left < 0 ? -gap : gap));
+  const all = [...scene.u.flat(), ...levels, 0], low = Math.min(...all), high = Math.max(...all);
+  const across = (stageWidth - 2 * side) / (nodes.at(-1).x - nodes[0].x), scale = (bottom - top) / (high - low);
+  const levelOf = (u) => bottom - scale * (u - low), xOf = (x) => side + across * (x - nodes[0].x);
+  const placeOf = ({ x, mass }, u) => [xOf(x), levelOf(mass < 0 ? 0 : u[mass])];
+  // Where both halves move alike, a contact in the middle.
+  const touched = scene.contacts.map(({ left, right }, i) => {
+    const own = nodes.filter(({ mass }) => mass === Math.max(left, right));
+    return [xOf(own.reduce((sum, { x }) => sum + x, 0) / own.length), levelOf(levels[i])];
+  });
+  const power = 10 ** Math.floor(Math.log10(120 / scale)), metres = power * [5, 2, 1].find((step) => step * power <= 120 / scale);
+  svgElement(svg, "path", {
+    d: `M12,${bottom}V${bottom - scale * metres}m-4,7l4,-7l4,7`, stroke: "var(--muted)", "stroke-width": 1.5, fill: "none"
+  });
+  svgElement(svg, "text", { x: 4, y: bottom + 18, fill: "var(--muted)" }, `u = ${+metres.toPrecision(3)} m`);
+  svgElement(svg, "path", {
+    d: touched.length === 1 ? `M${touched[0]}V${stageHeight}` : `M${xOf(nodes[0].x)},${touched[0][1]}H${xOf(nodes.at(-1).x)}`,
+    stroke: "var(--ink)", "stroke-width": 4, "data-obstacle": touched.length
+  });
+  // Between two nodes that move alike one without mass, which is level with them or on the point.
+  const corners = (u) => nodes.flatMap((node, i) => {
+    const [x, y] = placeOf(node, u), isTwin = node.mass >= 0 && nodes[i + 1].mass === node.mass;
+    return isTwin ? [[x, y], [touched[0][0], Math.min(y, touched[0][1])]] : [[x, y]];
+  });
+  function draw(attributes) {
+    const path = svgElement(svg, "path", { fill: "none", "stroke-width": 2, ...attributes });
+    return (u) => {
+      path.setAttribute("visibility", u ? "visible" : "hidden");
+      if (u) path.setAttribute("d", `M${corners(u).map((corner) => corner.map((at) => at.toFixed(2))).join("L")}`);
+    };
+  }
+  const line = draw({ stroke: "var(--m1)", "data-string": nodes.length });
+  const points = nodes.map(({ mass }) => svgElement(svg, "circle", { r: 4, fill: mass < 0 ? "var(--ink)" : "var(--m1)", "data-block": mass + 1 }));
+  function place(u) {
+    line(u);
+    points.forEach((point, i) => placeOf(nodes[i], u).forEach((at, axis) => point.setAttribute(["cx", "cy"][axis], at.toFixed(2))));
+  }
+  return { place, outline: (attributes) => draw({ ...attributes, "data-outline": 1, visibility: "hidden" }), touch: (contact) => touched[contact] };
 }
 
 function middle(points) {
