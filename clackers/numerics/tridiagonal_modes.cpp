@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::numerics {
@@ -17,6 +18,8 @@ using Vector = std::vector<DoubleDouble>;
 // What a few operations in double-double round at most, of the sum of the sizes.
 constexpr double rounding = 0x1p-96;
 constexpr double most_shape_error = 0x1p-60, least_square = 0x1p-80;
+// A stiffness matrix without negative eigenvalues has some of this size by the rounding of its entries.
+constexpr double unit = 64.0 * epsilon;
 constexpr int most_iterations = 6;
 
 DoubleDouble quotient(const DoubleDouble& x, const DoubleDouble& y) {
@@ -84,7 +87,8 @@ Vector solved(const Tridiagonal& k, const Tridiagonal& m, const DoubleDouble& sq
         below = {below.next, below.second, {}};
       }
     }
-    largest = std::max({largest, std::abs(row.here.hi), std::abs(row.next.hi)});
+    largest =
+        std::max(largest, std::abs(k.diagonal[i].hi) + std::abs(square.hi * m.diagonal[i].hi));
     rows[i] = row;
   }
   for (auto i = n; i-- > 0;) {
@@ -195,12 +199,16 @@ std::optional<TridiagonalModes> tridiagonal_modes(const Tridiagonal& stiffness,
     for (auto& mode : *some) modes.emplace_back(first, std::move(mode));
   }
   std::ranges::stable_sort(modes, {}, [](const auto& mode) { return mode.second.square.hi; });
+  const double largest =
+      std::max(modes.back().second.square.hi, std::abs(modes.front().second.square.hi));
   TridiagonalModes found{Eigen::VectorXd(n), Eigen::VectorXd(n),
                          Eigen::MatrixXd::Zero(Index(n), Index(n))};
   for (Index j = 0; j < Index(n); ++j) {
     const auto& [first, mode] = modes[std::size_t(j)];
     const auto& [square, residual, shape] = mode;
-    found.squares[j] = square.hi > least_square * modes.back().second.square.hi ? square.hi : 0.0;
+    const bool is_zero =
+        square.hi <= least_square * largest && square.hi >= -unit * double(n) * largest;
+    found.squares[j] = is_zero ? 0.0 : square.hi;
     found.square_errors[j] = residual + std::abs((square - DoubleDouble{found.squares[j], 0.0}).hi);
     for (std::size_t i = 0; i < shape.size(); ++i) found.shapes(Index(first + i), j) = shape[i].hi;
   }

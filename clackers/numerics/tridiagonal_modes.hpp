@@ -16,7 +16,8 @@ struct Tridiagonal {
 /// Modes of undamped vibration, K X = M X diag(squares), X' M X = 1, as doubles that lie next to the true
 /// numbers: an entry of a shape is rounded from one whose error is 2^-60 of the shape's size at most.
 struct TridiagonalModes {
-  Eigen::VectorXd squares;  ///< of angular frequencies, ascending; 0 below 2^-80 of the largest
+  Eigen::VectorXd
+      squares;  ///< of angular frequencies, ascending; 0 from -64 n epsilon to 2^-80 of the largest
   Eigen::VectorXd square_errors;  ///< bounds
   Eigen::MatrixXd shapes;
 };

@@ -125,6 +125,15 @@ TEST(TridiagonalModes, LieNextToTheTrueNumbers) {
   }
 }
 
+TEST(TridiagonalModes, MayGrow) {
+  const Tridiagonal mass{{{1.0, 0.0}, {1.0, 0.0}}, {{0.0, 0.0}}};
+  EXPECT_EQ(tridiagonal_modes({{{-1.0, 0.0}, {2.0, 0.0}}, {{0.0, 0.0}}}, mass)->squares[0], -1.0);
+  // By rounding alone.
+  const auto modes = tridiagonal_modes({{{-1e-15, 0.0}, {2.0, 0.0}}, {{0.0, 0.0}}}, mass);
+  EXPECT_EQ(modes->squares[0], 0.0);
+  EXPECT_GE(modes->square_errors[0], 1e-15);
+}
+
 // Two bars of one material have the same frequencies, as long as nothing joins them.
 TEST(TridiagonalModes, OfMassesThatNothingJoinsMayBeEqual) {
   Tridiagonal k, m;
