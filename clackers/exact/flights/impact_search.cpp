@@ -50,8 +50,10 @@ auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
           return next_contacts();
         // Where it opens by less than its error, and then closes.
         if (!opens && begins_[i] == Begin::by_acceleration && watch(i, 0.0).third < 0.0 &&
-            problem_.contacts[i].restitution == 0.0)
+            problem_.contacts[i].restitution == 0.0) {
+          opens_ = begins_;
           return {{i, 0.0, level[i] / certain_gap, 0.0, true}};
+        }
         if (!opens) refuse_closed(i, watch(i, 0.0), level[i]);
         from[i] = *opens;
       }
