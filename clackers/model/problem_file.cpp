@@ -61,6 +61,15 @@ constexpr std::size_t most_masses = 1000;
   throw InputError(fmt::format("{}: {}.", place, what), "bad-syntax");
 }
 
+[[noreturn]] void refuse_unstated(const std::string& place, std::string_view law) {
+  throw InputError(
+      fmt::format(
+          "{}: the motion obeys a law beside its rows, \"{}\"; allowed: problems whose rows "
+          "say all. Take the case itself in place of its file.",
+          place, printable(law)),
+      "not-stated");
+}
+
 struct ToTable {
   toml::table& table;
   const std::string& key;
@@ -127,6 +136,7 @@ toml::table table_from_lines(std::string_view text, const std::string& name) {
     const auto equals = std::min(line.find('='), line.size());
     const auto letters = line.substr(0, equals).find_last_not_of("0123456789") + 1;
     const std::string key(line.substr(0, letters));
+    if (key == "unstated") refuse_unstated(place, line.substr(std::min(equals + 1, line.size())));
     std::vector<double> values;
     for (auto rest = line.substr(std::min(equals + 1, line.size())); !rest.empty();) {
       const auto word = rest.substr(0, rest.find(' '));
@@ -395,6 +405,7 @@ void require_plausible(const std::string& name, const model::ImpactProblem<>& pr
 model::ImpactProblem<> problem_from_text(std::string_view text, const std::string& name) {
   const auto root = table_from(text, name);
   const Reader reader(name);
+  if (const auto law = root["unstated"].value<std::string>()) refuse_unstated(name, *law);
   reader.require_known(root,
                        {"M", "C", "K", "end", "start", "contacts", "loads", "springs",
                         "nonlinear_springs", "frictions"},

@@ -84,6 +84,14 @@ TEST(ProblemText, RefusesOtherLines) {
   EXPECT_REFUSED(read("direction2", "spring1=1 2\ndirection2"), "bad-syntax", "\"spring1=1 2\"");
 }
 
+TEST(ProblemText, RefusesLawsThatNoRowStates) {
+  auto problem = two_masses();
+  problem.unstated = "a round wall";
+  for (const auto& written :
+       {problem_file_text(problem), problem_json(problem), problem_file_json("a", problem)})
+    EXPECT_REFUSED(problem_from_text(written, "f"), "not-stated", "\"a round wall\"");
+}
+
 TEST(ProblemText, RefusesOtherJson) {
   EXPECT_REFUSED(problem_from_text("{\"M\": [[1]}", "f"), "bad-syntax", "f: not JSON");
   EXPECT_REFUSED(problem_from_text("{\"M\": null}", "f"), "bad-syntax", "f: null");
