@@ -50,11 +50,13 @@ auto PiecewiseMotion::event(std::size_t flight) const -> std::optional<Event> {
 
 void PiecewiseMotion::sample(std::span<const double> times, Side side,
                              model::SampleBuffers out) const {
+  constexpr std::size_t most_times = 32;
   const auto n = std::size_t(dof());
   model::require_buffers(who_, out, times.size(), n);
   const Flight* before = nullptr;
   std::vector<numerics::ModalState> states;
-  for (std::size_t i = 0; i < times.size(); ++i) {
+  MatrixXd now;  // of times of one flight
+  for (std::size_t i = 0, count = 1; i < times.size(); i += count, count = 1) {
     const auto& flight = flights_[flight_at(times[i], side)];
     const auto& modes = this->modes(flight);
     // Fits sample thousands of motions.
@@ -64,14 +66,27 @@ void PiecewiseMotion::sample(std::span<const double> times, Side side,
                             out.v.subspan(i * n, n));
       continue;
     }
-    const VectorXd now = total(flight, times[i]);
-    const auto at = [&](std::span<double> to) {
-      return Eigen::Map<VectorXd>(to.data() + i * n, dof());
+    while (count < most_times && i + count < times.size() &&
+           &flights_[flight_at(times[i + count], side)] == &flight)
+      ++count;
+    const Index m = modes.dof();
+    now.resize(2 * m, Index(count));
+    for (std::size_t k = 0; k < count; ++k) now.col(Index(k)) = total(flight, times[i + k]);
+    // Displacements are sums of displacements of uncoupled modes, and rates of rates.
+    const auto add = [&](std::span<double> to, int order) {
+      Eigen::Map<MatrixXd> at(to.data() + i * n, dof(), Index(count));
+      const auto& rows = modes.derivative(order);
+      if (modes.system().is_coupled())
+        at.noalias() = rows * now;
+      else
+        at.noalias() = rows.middleCols(order * m, m) * now.middleRows(order * m, m);
+      return at;
     };
-    at(out.u) = modes.offset();
-    at(out.u).noalias() += modes.derivative(0) * now;
-    at(out.v).noalias() = modes.derivative(1) * now;
-    if (!out.a.empty()) at(out.a) = modes.acceleration(now, times[i]);
+    add(out.u, 0).colwise() += modes.offset();
+    add(out.v, 1);
+    for (std::size_t k = 0; !out.a.empty() && k < count; ++k)
+      Eigen::Map<VectorXd>(out.a.data() + (i + k) * n, dof()) =
+          modes.acceleration(now.col(Index(k)), times[i + k]);
   }
 }
 

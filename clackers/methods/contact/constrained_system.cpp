@@ -45,9 +45,13 @@ ConstrainedSystem<Dof>::ConstrainedSystem(const model::SmoothSystem<Dof>& free,
       constrained_(free),
       is_active_(contacts.size(), false),
       factors_(contacts.size()) {
+  damping_ = free.damping;
+  stiffness_ = free.stiffness;
+  damping_size_ = free.damping.cwiseAbs();
+  stiffness_size_ = free.stiffness.cwiseAbs();
   const auto n = free.dof();
   projector_ = matrix_ = Matrix::Identity(n, n);
-  constant_ = drift_ = force_ = size_ = Vector::Zero(n);
+  constant_ = drift_ = force_ = size_ = part_ = Vector::Zero(n);
   active_.reserve(contacts.size());
   solution_ = forces_ = acceleration_ = rounding_ = earlier_ = contacts.no_impulses();
   constrained_.add_load = [this](double t, std::span<double> force) { add_load(t, force); };
@@ -138,10 +142,12 @@ void ConstrainedSystem<Dof>::find_gap_accelerations(const State& now) {
     force_ = -force_;
     size_ += force_.cwiseAbs();
   }
-  force_.noalias() -= free_.damping * now.v;
-  force_.noalias() -= free_.stiffness * now.u;
-  size_.noalias() += free_.damping.cwiseAbs() * now.v.cwiseAbs();
-  size_.noalias() += free_.stiffness.cwiseAbs() * now.u.cwiseAbs();
+  damping_.subtract_product(now.v, force_);
+  stiffness_.subtract_product(now.u, force_);
+  part_ = now.v.cwiseAbs();
+  damping_size_.add_product(part_, size_);
+  part_ = now.u.cwiseAbs();
+  stiffness_size_.add_product(part_, size_);
   const double unit = 8.0 * double(force_.size() + 1) * std::numeric_limits<double>::epsilon();
   const auto& velocity = contacts_.response().velocity;
   acceleration_.noalias() = velocity.transpose() * force_;

@@ -7,6 +7,7 @@
 
 #include "clackers/methods/contact/contact_set.hpp"
 #include "clackers/model/system.hpp"
+#include "clackers/numerics/banded.hpp"
 
 namespace clackers::methods {
 
@@ -71,13 +72,14 @@ class ConstrainedSystem {
   void find_gap_accelerations(const State& now);
 
   const model::SmoothSystem<Dof>& free_;
+  numerics::BandedMatrix<Dof> damping_, stiffness_, damping_size_, stiffness_size_;  // of it
   ContactSet<Dof>& contacts_;
   model::SmoothSystem<Dof> constrained_;
   std::vector<std::size_t> active_;
   std::vector<bool> is_active_;
-  numerics::PrincipalCholesky factors_;     // of W_aa
-  Matrix projector_, matrix_;               // Q
-  Vector constant_, drift_, force_, size_;  // drift_: growth of constant_ from since_ on
+  numerics::PrincipalCholesky factors_;            // of W_aa
+  Matrix projector_, matrix_;                      // Q
+  Vector constant_, drift_, force_, size_, part_;  // drift_: growth of constant_ from since_ on
   double since_ = 0.0;
   Eigen::VectorXd solution_, forces_;
   Eigen::VectorXd acceleration_, rounding_, earlier_;  // of the gaps, without contact forces

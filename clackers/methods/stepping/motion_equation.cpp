@@ -226,7 +226,7 @@ bool MotionEquation<Dof>::balance(const LoadTime& load, const Weights& w, const 
       magnitude_ +=
           (std::abs(by_u) * b->cwiseAbs().dot(term_) + std::abs(by_v) * b->cwiseAbs().dot(part_)) *
           b->cwiseAbs();
-  } else {
+  } else if (s_.nonlinear) {
     magnitude_.noalias() += dp_du_.cwiseAbs() * term_;
     magnitude_.noalias() += dp_dv_.cwiseAbs() * part_;
   }
