@@ -81,7 +81,7 @@ TEST(FormAhead, PushesAndHarmonicsAreWholeDerivativesWithBounds) {
     FormAhead ahead;
     ahead.begin(system, form, start, -1.0, push);
     ahead.add(y, frequency);
-    const auto value = [&](double s) {
+    const auto value = [&, &system = system, &start = start](double s) {
       // y'' = push.rate - 2 sigma (y' - push.y), by the closed form.
       const double e = std::exp(-2.0 * sigma * s), x = 2.0 * sigma;
       const double gain = sigma > 0.0 ? (1.0 - e) / x : s,

@@ -115,7 +115,7 @@ TEST(BarContact, TwoBarsPartWithSaintVenantsRestitution) {
               ? (swapped ? Number(first.v0) - a.z / (a.z + b.z) * std::pow(q, round) * D
                          : second.v0 + a.z / (a.z + b.z) * std::pow(q, round) * D)
               : (swapped ? first.v0 : second.v0);
-      for (const std::size_t bar : {0, 1})
+      for (const std::size_t bar : {0u, 1u})
         expect(motion.at(bar, 0.0, t, Side::right).v, common, 1e3L * (D + 2), "common velocity");
     }
     const auto before = motion.energy(0.0), after = motion.energy(end);
