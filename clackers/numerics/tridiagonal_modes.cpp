@@ -145,7 +145,7 @@ class Block {
  private:
   static Tridiagonal part(const Tridiagonal& a, std::size_t first, std::size_t last) {
     return {{a.diagonal.begin() + Index(first), a.diagonal.begin() + Index(last)},
-            {a.beside.begin() + Index(first), a.beside.begin() + Index(last) - 1}};
+            {a.beside.begin() + Index(first), a.beside.begin() + Index(last - 1)}};
   }
   std::size_t size() const { return k_.diagonal.size(); }
   static Eigen::MatrixXd rounded(const Tridiagonal& a) {
