@@ -36,10 +36,15 @@ function layout(scene) {
   return { x, y, width, scale: scene.leftward ? -scale : scale };
 }
 
-// An arrow along positive displacements whose length is 1, 2 or 5 times a power of ten metres.
-function drawRuler(svg, scale) {
+// 1, 2 or 5 times a power of ten metres, at most 120 units long.
+function rulerMetres(scale) {
   const most = 120 / Math.abs(scale), power = 10 ** Math.floor(Math.log10(most));
-  const metres = power * [5, 2, 1].find((step) => step * power <= most), length = scale * metres;
+  return power * [5, 2, 1].find((step) => step * power <= most);
+}
+
+// An arrow along positive displacements.
+function drawRuler(svg, scale) {
+  const metres = rulerMetres(scale), length = scale * metres;
   const from = length > 0 ? 12 : 12 - length, tip = from + length, back = tip - 7 * Math.sign(length);
   svgElement(svg, "path", {
     d: `M${from},18H${tip}M${back},14L${tip},18L${back},22`, stroke: "var(--muted)", "stroke-width": 1.5, fill: "none"
@@ -120,7 +125,7 @@ function drawString(svg, scene) {
     const own = nodes.filter(({ mass }) => mass === Math.max(left, right));
     return [xOf(own.reduce((sum, { x }) => sum + x, 0) / own.length), levelOf(levels[i])];
   });
-  const power = 10 ** Math.floor(Math.log10(120 / scale)), metres = power * [5, 2, 1].find((step) => step * power <= 120 / scale);
+  const metres = rulerMetres(scale);
   svgElement(svg, "path", {
     d: `M12,${bottom}V${bottom - scale * metres}m-4,7l4,-7l4,7`, stroke: "var(--muted)", "stroke-width": 1.5, fill: "none"
   });
