@@ -55,13 +55,17 @@ MatrixXd Cholesky::solve(const MatrixXd& b) const { return factors_.solve(b); }
 
 MatrixXd solved(const MatrixXd& a, const MatrixXd& b) { return Cholesky(a).solve(b); }
 
+MatrixXd product_of_halves(const Eigen::Ref<const MatrixXd>& a, const MatrixXd& x) {
+  const auto half = a.cols() / 2;
+  if (a.rightCols(half).isZero(0.0)) return a.leftCols(half) * x.topRows(half);
+  if (a.leftCols(half).isZero(0.0)) return a.rightCols(half) * x.bottomRows(half);
+  return a * x;
+}
+
 MatrixXd product_of_quarters(const MatrixXd& a, const MatrixXd& x) {
-  const auto rows = a.rows() / 2, inner = a.cols() / 2;
-  MatrixXd y = MatrixXd::Zero(a.rows(), x.cols());
-  for (Eigen::Index i = 0; i < 2; ++i)
-    for (Eigen::Index j = 0; j < 2; ++j)
-      if (const auto quarter = a.block(i * rows, j * inner, rows, inner); !quarter.isZero(0.0))
-        y.middleRows(i * rows, rows).noalias() += quarter * x.middleRows(j * inner, inner);
+  const auto half = a.rows() / 2;
+  MatrixXd y(a.rows(), x.cols());
+  y << product_of_halves(a.topRows(half), x), product_of_halves(a.bottomRows(half), x);
   return y;
 }
 

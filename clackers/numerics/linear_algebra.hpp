@@ -36,8 +36,11 @@ Eigen::MatrixXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::MatrixX
 /// Columns Z with rows Z = 0 and Z^T M Z = 1, for independent rows and a positive definite M.
 Eigen::MatrixXd unseen_directions(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& mass);
 
-/// A X, without products of quarters of A that are 0, as those between displacements and velocities are
-/// of structures without damping. A has even numbers of rows and columns.
+/// A X, without the half of the columns of A that is 0, as that for velocities often is where rows are
+/// displacements. A has an even number of columns.
+Eigen::MatrixXd product_of_halves(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                                  const Eigen::MatrixXd& x);
+/// The same of the upper and the lower rows of A.
 Eigen::MatrixXd product_of_quarters(const Eigen::MatrixXd& a, const Eigen::MatrixXd& x);
 
 /// x that makes |A x - b| least, by QR with column pivoting; pivots below `threshold` times the

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "clackers/diagnose/system/hypotheses.hpp"
-#include "clackers/numerics/modal_flight.hpp"
+#include "clackers/numerics/modes/modal_flight.hpp"
 
 namespace clackers::diagnose {
 

@@ -11,9 +11,10 @@
 
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/exact/flights/basis.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
-#include "clackers/numerics/tridiagonal_modes.hpp"
+#include "clackers/numerics/modes/tridiagonal_modes.hpp"
 
 namespace clackers::exact {
 
@@ -24,68 +25,12 @@ using Complex = std::complex<double>;
 
 namespace {
 
-// A matrix of few entries that are not 0, by its columns.
-class Sparse {
- public:
-  explicit Sparse(const Matrix& x) : rows_(x.rows()), columns_(std::size_t(x.cols())) {
-    for (Index j = 0; j < x.cols(); ++j)
-      for (Index i = 0; i < rows_; ++i)
-        if (x(i, j) != 0.0) columns_[std::size_t(j)].emplace_back(i, x(i, j));
-  }
-  Matrix times(const Matrix& x) const {
-    Matrix y = Matrix::Zero(rows_, x.cols());
-    for (std::size_t j = 0; j < columns_.size(); ++j)
-      for (const auto& [i, entry] : columns_[j]) y.row(i) += entry * x.row(Index(j));
-    return y;
-  }
-  // this' x this of a symmetric x.
-  Matrix reduced(const Matrix& x) const {
-    Matrix y = Matrix::Zero(rows_, std::ssize(columns_));
-    for (std::size_t j = 0; j < columns_.size(); ++j)
-      for (const auto& [i, entry] : columns_[j]) y.col(Index(j)) += entry * x.col(i);
-    Matrix z = Matrix::Zero(y.cols(), y.cols());
-    for (std::size_t j = 0; j < columns_.size(); ++j)
-      for (const auto& [i, entry] : columns_[j]) z.row(Index(j)) += entry * y.row(i);
-    return 0.5 * (z + z.transpose());
-  }
-
- private:
-  Index rows_;
-  std::vector<std::vector<std::pair<Index, double>>> columns_;
-};
-
-// basis' (x + rest) basis, if it has three diagonals.
-std::optional<numerics::Tridiagonal> tridiagonal(const Matrix& x, const Matrix& rest,
-                                                 const Matrix& basis) {
-  const auto n = std::size_t(basis.cols());
-  numerics::Tridiagonal made{std::vector<numerics::DoubleDouble>(n),
-                             std::vector<numerics::DoubleDouble>(n)};
-  std::vector<std::vector<Index>> columns(std::size_t(x.rows()));  // of each row of the basis
-  for (Index j = 0; j < basis.cols(); ++j)
-    for (Index i = 0; i < basis.rows(); ++i)
-      if (basis(i, j) != 0.0) columns[std::size_t(i)].push_back(j);
-  for (Index b = 0; b < x.cols(); ++b)
-    for (Index a = 0; a < x.rows(); ++a) {
-      const numerics::DoubleDouble entry{x(a, b), rest.size() > 0 ? rest(a, b) : 0.0};
-      if (entry.hi == 0.0 && entry.lo == 0.0) continue;
-      for (const auto i : columns[std::size_t(a)])
-        for (const auto j : columns[std::size_t(b)]) {
-          if (j < i) continue;
-          if (j > i + 1) return std::nullopt;
-          auto& to = (i == j ? made.diagonal : made.beside)[std::size_t(i)];
-          to = to + entry * basis(a, i) * basis(b, j);
-        }
-    }
-  if (n > 0) made.beside.pop_back();
-  return made;
-}
-
 std::optional<numerics::TridiagonalModes> modes_without_defect(
-    const model::ImpactProblem<>& problem, const Matrix& basis, const Matrix& stiffness_rest) {
+    const model::ImpactProblem<>& problem, const Basis& onto, const Matrix& stiffness_rest) {
   const auto& s = problem.system;
-  if (basis.cols() == 0 || !s.damping.isZero(0.0)) return std::nullopt;
-  const auto mass = tridiagonal(s.mass, {}, basis);
-  const auto stiffness = mass ? tridiagonal(s.stiffness, stiffness_rest, basis) : std::nullopt;
+  if (onto.columns() == 0 || !s.damping.isZero(0.0)) return std::nullopt;
+  const auto mass = onto.tridiagonal(s.mass);
+  const auto stiffness = mass ? onto.tridiagonal(s.stiffness, stiffness_rest) : std::nullopt;
   return stiffness ? numerics::tridiagonal_modes(*stiffness, *mass) : std::nullopt;
 }
 
@@ -102,9 +47,9 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
   if (problem.system.nonlinear || (add_load && load == nullptr))
     refuse(who, "system", "with a nonlinear force or any load", "linear, with harmonic loads", {},
            "linear-only");
-  const Sparse onto(basis), onto_size(basis.cwiseAbs());
+  const Basis onto(basis), onto_size(basis.cwiseAbs());
   const Matrix reduced_mass = onto.reduced(mass_);
-  if (const auto modes = modes_without_defect(problem, basis, stiffness_rest)) {
+  if (const auto modes = modes_without_defect(problem, onto, stiffness_rest)) {
     system_ = numerics::ModalSystem::undamped(modes->squares, modes->shapes, reduced_mass);
     square_errors_ = modes->square_errors;
   } else {

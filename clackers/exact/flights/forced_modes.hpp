@@ -7,7 +7,7 @@
 
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/numerics/first_root.hpp"
-#include "clackers/numerics/modal_form.hpp"
+#include "clackers/numerics/modes/modal_form.hpp"
 
 namespace clackers::exact {
 

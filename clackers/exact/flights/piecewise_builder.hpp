@@ -19,8 +19,8 @@ class FlightsEnclosure;
 
 namespace clackers::exact {
 
-/// Goes from impact to impact: piecewise_builder.cpp has the regimes, impact_search.cpp what closes next,
-/// impacts.cpp the impacts.
+/// Goes from impact to impact: regimes.cpp has the modal systems, impact_search.cpp what closes next,
+/// impacts.cpp the impacts, resting_contacts.cpp what stays closed.
 class PiecewiseMotion::Builder {
   using Index = Eigen::Index;
   using MatrixXd = Eigen::MatrixXd;

@@ -10,6 +10,7 @@
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/flights/simultaneity.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::exact {
 
@@ -69,21 +70,13 @@ void PiecewiseMotion::sample(std::span<const double> times, Side side,
     while (count < most_times && i + count < times.size() &&
            &flights_[flight_at(times[i + count], side)] == &flight)
       ++count;
-    const Index m = modes.dof();
-    now.resize(2 * m, Index(count));
+    now.resize(2 * modes.dof(), Index(count));
     for (std::size_t k = 0; k < count; ++k) now.col(Index(k)) = total(flight, times[i + k]);
-    // Displacements are sums of displacements of uncoupled modes, and rates of rates.
-    const auto add = [&](std::span<double> to, int order) {
-      Eigen::Map<MatrixXd> at(to.data() + i * n, dof(), Index(count));
-      const auto& rows = modes.derivative(order);
-      if (modes.system().is_coupled())
-        at.noalias() = rows * now;
-      else
-        at.noalias() = rows.middleCols(order * m, m) * now.middleRows(order * m, m);
-      return at;
+    const auto at = [&](std::span<double> to) {
+      return Eigen::Map<MatrixXd>(to.data() + i * n, dof(), Index(count));
     };
-    add(out.u, 0).colwise() += modes.offset();
-    add(out.v, 1);
+    at(out.u) = numerics::product_of_halves(modes.derivative(0), now).colwise() + modes.offset();
+    at(out.v) = numerics::product_of_halves(modes.derivative(1), now);
     for (std::size_t k = 0; !out.a.empty() && k < count; ++k)
       Eigen::Map<VectorXd>(out.a.data() + (i + k) * n, dof()) =
           modes.acceleration(now.col(Index(k)), times[i + k]);
@@ -105,15 +98,10 @@ double PiecewiseMotion::factor(std::size_t flight) const {
 
 namespace {
 
-// Square roots of row . (covariance row) of each row; without damping half of each row is 0.
+// Square roots of row . (covariance row) of each row.
 VectorXd deviations(const MatrixXd& rows, const MatrixXd& covariance) {
-  const Index m = rows.cols() / 2;
-  const bool no_rates = rows.rightCols(m).isZero(0.0);
-  const Index first = !no_rates && rows.leftCols(m).isZero(0.0) ? m : 0,
-              count = no_rates || first > 0 ? m : 2 * m;
-  const auto some = rows.middleCols(first, count);
-  return (some * covariance.block(first, first, count, count))
-      .cwiseProduct(some)
+  return numerics::product_of_halves(rows, covariance)
+      .cwiseProduct(rows)
       .rowwise()
       .sum()
       .cwiseMax(0.0)

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "clackers/base/error.hpp"
-#include "clackers/numerics/modal_flight.hpp"
+#include "clackers/numerics/modes/modal_flight.hpp"
 
 namespace clackers::measure {
 namespace {

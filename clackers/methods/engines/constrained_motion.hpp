@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "clackers/numerics/modal_form.hpp"
+#include "clackers/numerics/modes/modal_form.hpp"
 
 namespace clackers::methods {
 

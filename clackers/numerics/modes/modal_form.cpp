@@ -1,4 +1,4 @@
-#include "clackers/numerics/modal_form.hpp"
+#include "clackers/numerics/modes/modal_form.hpp"
 
 #include <algorithm>
 #include <cmath>

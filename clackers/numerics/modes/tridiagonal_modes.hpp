@@ -10,14 +10,14 @@ namespace clackers::numerics {
 
 /// A symmetric matrix.
 struct Tridiagonal {
-  std::vector<DoubleDouble> diagonal, beside;  ///< beside[i] is the entry (i, i + 1)
+  std::vector<DoubleDouble> diagonal, off_diagonal;  ///< entries (i, i) and (i, i + 1)
 };
 
-/// Modes of undamped vibration, K X = M X diag(squares), X' M X = 1, as doubles that lie next to the true
-/// numbers: an entry of a shape is rounded from one whose error is 2^-60 of the shape's size at most.
+/// Modes of undamped vibration, K X = M X diag(squares), X' M X = 1, rounded from numbers that are more
+/// accurate than doubles: the error of an entry of a shape is 2^-60 of the shape's size at most.
 struct TridiagonalModes {
-  Eigen::VectorXd
-      squares;  ///< of angular frequencies, ascending; 0 from -64 n epsilon to 2^-80 of the largest
+  /// Of angular frequencies, ascending; those from -64 n epsilon to 2^-80 of the largest are 0.
+  Eigen::VectorXd squares;
   Eigen::VectorXd square_errors;  ///< bounds
   Eigen::MatrixXd shapes;
 };
@@ -25,8 +25,8 @@ struct TridiagonalModes {
 /// By Rayleigh quotient iteration in double-double from the modes in doubles; a residual r of a mode in the
 /// norm of M^-1 is a bound on the error of its square, and r over the distance from the next square one on
 /// that of its shape: B. N. Parlett, The Symmetric Eigenvalue Problem, SIAM (1998), chapters 4 and 11.
-/// Nothing where squares of masses that are joined are too close to be told apart, or a row of M has a
-/// diagonal entry that is not larger than the sum of the others.
+/// Nothing where squares of joined masses are too close for that, or a row of M has a diagonal entry that
+/// is not larger than the sum of the others.
 std::optional<TridiagonalModes> tridiagonal_modes(const Tridiagonal& stiffness,
                                                   const Tridiagonal& mass);
 

@@ -1,4 +1,4 @@
-#include "clackers/numerics/tridiagonal_modes.hpp"
+#include "clackers/numerics/modes/tridiagonal_modes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,15 +24,15 @@ struct Pencil {
   Real here(std::size_t i, const Real& x) const {
     return exact(k.diagonal[i]) - x * exact(m.diagonal[i]);
   }
-  Real beside(std::size_t i, const Real& x) const {
-    return exact(k.beside[i]) - x * exact(m.beside[i]);
+  Real off_diagonal(std::size_t i, const Real& x) const {
+    return exact(k.off_diagonal[i]) - x * exact(m.off_diagonal[i]);
   }
   // The pivots of K - x M without row exchanges.
   Row pivots(const Real& x) const {
     Row d(size());
     for (std::size_t i = 0; i < size(); ++i) {
       d[i] = here(i, x);
-      if (i > 0) d[i] -= beside(i - 1, x) * beside(i - 1, x) / d[i - 1];
+      if (i > 0) d[i] -= off_diagonal(i - 1, x) * off_diagonal(i - 1, x) / d[i - 1];
       if (d[i] == 0) d[i] = Real("1e-300");
     }
     return d;
@@ -48,8 +48,8 @@ struct Pencil {
     for (std::size_t i = 0; i < size(); ++i) {
       p[i] += exact(m.diagonal[i]) * y[i];
       if (i + 1 == size()) break;
-      p[i] += exact(m.beside[i]) * y[i + 1];
-      p[i + 1] += exact(m.beside[i]) * y[i];
+      p[i] += exact(m.off_diagonal[i]) * y[i + 1];
+      p[i + 1] += exact(m.off_diagonal[i]) * y[i];
     }
     return p;
   }
@@ -58,9 +58,9 @@ struct Pencil {
     const auto d = pivots(x);
     for (int iteration = 0; iteration < 3; ++iteration) {
       y = momenta(y);
-      for (std::size_t i = 1; i < n; ++i) y[i] -= beside(i - 1, x) / d[i - 1] * y[i - 1];
+      for (std::size_t i = 1; i < n; ++i) y[i] -= off_diagonal(i - 1, x) / d[i - 1] * y[i - 1];
       for (auto i = n; i-- > 0;) {
-        if (i + 1 < n) y[i] -= beside(i, x) * y[i + 1];
+        if (i + 1 < n) y[i] -= off_diagonal(i, x) * y[i + 1];
         y[i] /= d[i];
       }
       Real norm = 0;
@@ -117,8 +117,8 @@ TEST(TridiagonalModes, LieNextToTheTrueNumbers) {
       k.diagonal.push_back(two_sum(springs[i], springs[i + 1]));
       m.diagonal.push_back({size(), 0.0});
       if (i + 1 == n) break;
-      k.beside.push_back({-springs[i + 1], 0.0});
-      m.beside.push_back({trial % 4 < 2 ? 0.0 : 0.1 * std::exp2(-0.5 * spread), 0.0});
+      k.off_diagonal.push_back({-springs[i + 1], 0.0});
+      m.off_diagonal.push_back({trial % 4 < 2 ? 0.0 : 0.1 * std::exp2(-0.5 * spread), 0.0});
     }
     expect_modes(k, m, 1e-15);
     EXPECT_EQ(tridiagonal_modes(k, m)->squares[0] == 0.0, trial % 2 == 0);
@@ -141,8 +141,8 @@ TEST(TridiagonalModes, OfMassesThatNothingJoinsMayBeEqual) {
     k.diagonal.push_back({2.0, 0.0});
     m.diagonal.push_back({1.0, 0.0});
     if (i == 5) break;
-    k.beside.push_back({i == 2 ? 0.0 : -1.0, 0.0});
-    m.beside.push_back({0.0, 0.0});
+    k.off_diagonal.push_back({i == 2 ? 0.0 : -1.0, 0.0});
+    m.off_diagonal.push_back({0.0, 0.0});
   }
   const auto found = tridiagonal_modes(k, m);
   ASSERT_TRUE(found);
@@ -152,13 +152,13 @@ TEST(TridiagonalModes, OfMassesThatNothingJoinsMayBeEqual) {
     EXPECT_TRUE(found->shapes.col(j).head(3).isZero(0.0) !=
                 found->shapes.col(j).tail(3).isZero(0.0));
   }
-  k.beside[2] = {-1e-40, 0.0};
+  k.off_diagonal[2] = {-1e-40, 0.0};
   EXPECT_FALSE(tridiagonal_modes(k, m));
-  k.beside[2] = {-1e-3, 0.0};
+  k.off_diagonal[2] = {-1e-3, 0.0};
   EXPECT_TRUE(tridiagonal_modes(k, m));
-  m.beside[0] = m.beside[1] = {0.6, 0.0};
+  m.off_diagonal[0] = m.off_diagonal[1] = {0.6, 0.0};
   EXPECT_FALSE(tridiagonal_modes(k, m));
-  m.beside[1] = {0.0, 0.0};
+  m.off_diagonal[1] = {0.0, 0.0};
   EXPECT_TRUE(tridiagonal_modes(k, m));
 }
 

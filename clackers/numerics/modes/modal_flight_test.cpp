@@ -1,4 +1,4 @@
-#include "clackers/numerics/modal_flight.hpp"
+#include "clackers/numerics/modes/modal_flight.hpp"
 
 #include <gtest/gtest.h>
 

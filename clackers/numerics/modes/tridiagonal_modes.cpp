@@ -1,9 +1,8 @@
-#include "clackers/numerics/tridiagonal_modes.hpp"
+#include "clackers/numerics/modes/tridiagonal_modes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "clackers/base/constants.hpp"
@@ -18,6 +17,8 @@ using Vector = std::vector<DoubleDouble>;
 // What a few operations in double-double round at most, of the sum of the sizes.
 constexpr double rounding = 0x1p-96;
 constexpr double most_shape_error = 0x1p-60, least_square = 0x1p-80;
+// Of the largest square: from here on an iteration that does not halve the residual is the last.
+constexpr double small_residual = 0x1p-84;
 // A stiffness matrix without negative eigenvalues has some of this size by the rounding of its entries.
 constexpr double unit = 64.0 * epsilon;
 constexpr int most_iterations = 6;
@@ -43,8 +44,8 @@ Vector product(const Tridiagonal& a, const Vector& x) {
   Vector y(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) y[i] = a.diagonal[i] * x[i];
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-    y[i] = y[i] + a.beside[i] * x[i + 1];
-    y[i + 1] = y[i + 1] + a.beside[i] * x[i];
+    y[i] = y[i] + a.off_diagonal[i] * x[i + 1];
+    y[i + 1] = y[i + 1] + a.off_diagonal[i] * x[i];
   }
   return y;
 }
@@ -52,8 +53,8 @@ Vector product(const Tridiagonal& a, const Vector& x) {
 // Of the sizes of the entries.
 double size_of_product(const Tridiagonal& a, const Vector& x, std::size_t i) {
   double size = std::abs(a.diagonal[i].hi * x[i].hi);
-  if (i > 0) size += std::abs(a.beside[i - 1].hi * x[i - 1].hi);
-  if (i + 1 < x.size()) size += std::abs(a.beside[i].hi * x[i + 1].hi);
+  if (i > 0) size += std::abs(a.off_diagonal[i - 1].hi * x[i - 1].hi);
+  if (i + 1 < x.size()) size += std::abs(a.off_diagonal[i].hi * x[i + 1].hi);
   return size;
 }
 
@@ -68,13 +69,13 @@ Vector solved(const Tridiagonal& k, const Tridiagonal& m, const DoubleDouble& sq
   double largest = std::numeric_limits<double>::min();
   const auto entry = [&](const DoubleDouble& a, const DoubleDouble& b) { return a - square * b; };
   Row below{entry(k.diagonal[0], m.diagonal[0]), {}, {}};
-  if (n > 1) below.next = entry(k.beside[0], m.beside[0]);
+  if (n > 1) below.next = entry(k.off_diagonal[0], m.off_diagonal[0]);
   for (std::size_t i = 0; i < n; ++i) {
     Row row = below;
     if (i + 1 < n) {
-      const auto beside = entry(k.beside[i], m.beside[i]);
-      below = {beside, entry(k.diagonal[i + 1], m.diagonal[i + 1]), {}};
-      if (i + 2 < n) below.second = entry(k.beside[i + 1], m.beside[i + 1]);
+      const auto off_diagonal = entry(k.off_diagonal[i], m.off_diagonal[i]);
+      below = {off_diagonal, entry(k.diagonal[i + 1], m.diagonal[i + 1]), {}};
+      if (i + 2 < n) below.second = entry(k.off_diagonal[i + 1], m.off_diagonal[i + 1]);
       if (std::abs(below.here.hi) > std::abs(row.here.hi)) {
         std::swap(row, below);
         std::swap(y[i], y[i + 1]);
@@ -101,7 +102,7 @@ Vector solved(const Tridiagonal& k, const Tridiagonal& m, const DoubleDouble& sq
   return y;
 }
 
-struct Mode {
+struct RefinedMode {
   DoubleDouble square;
   double residual = std::numeric_limits<double>::infinity();  // a bound, in the norm of M^-1
   Vector shape;
@@ -114,21 +115,21 @@ class Block {
       : k_(part(stiffness, first, last)), m_(part(mass, first, last)) {
     for (std::size_t i = 0; i < size(); ++i) {
       double least = m_.diagonal[i].hi;
-      if (i > 0) least -= std::abs(m_.beside[i - 1].hi);
-      if (i + 1 < size()) least -= std::abs(m_.beside[i].hi);
+      if (i > 0) least -= std::abs(m_.off_diagonal[i - 1].hi);
+      if (i + 1 < size()) least -= std::abs(m_.off_diagonal[i].hi);
       least_mass_ = std::min(least_mass_, least);
     }
   }
 
   // Nothing where they are not found.
-  std::optional<std::vector<Mode>> modes() const {
+  std::optional<std::vector<RefinedMode>> modes() const {
     const auto near = normal_modes(rounded(k_), rounded(m_));
     if (!near) return std::nullopt;
-    std::vector<Mode> modes;
+    std::vector<RefinedMode> modes;
     for (Index j = 0; j < near->shapes.cols(); ++j) {
-      Mode mode;
+      RefinedMode mode;
       for (const double x : near->shapes.col(j)) mode.shape.push_back({x, 0.0});
-      sharpen(mode, near->squares.cwiseAbs().maxCoeff());
+      refine(mode, near->squares.cwiseAbs().maxCoeff());
       modes.push_back(std::move(mode));
     }
     for (std::size_t j = 0; j < modes.size(); ++j) {
@@ -145,18 +146,18 @@ class Block {
  private:
   static Tridiagonal part(const Tridiagonal& a, std::size_t first, std::size_t last) {
     return {{a.diagonal.begin() + Index(first), a.diagonal.begin() + Index(last)},
-            {a.beside.begin() + Index(first), a.beside.begin() + Index(last - 1)}};
+            {a.off_diagonal.begin() + Index(first), a.off_diagonal.begin() + Index(last - 1)}};
   }
   std::size_t size() const { return k_.diagonal.size(); }
   static Eigen::MatrixXd rounded(const Tridiagonal& a) {
     const auto n = Index(a.diagonal.size());
     Eigen::MatrixXd x = Eigen::MatrixXd::Zero(n, n);
     for (Index i = 0; i < n; ++i) x(i, i) = a.diagonal[std::size_t(i)].hi;
-    for (Index i = 0; i + 1 < n; ++i) x(i, i + 1) = x(i + 1, i) = a.beside[std::size_t(i)].hi;
+    for (Index i = 0; i + 1 < n; ++i) x(i, i + 1) = x(i + 1, i) = a.off_diagonal[std::size_t(i)].hi;
     return x;
   }
 
-  void sharpen(Mode& mode, double largest) const {
+  void refine(RefinedMode& mode, double largest) const {
     for (int k = 0; k < most_iterations; ++k) {
       if (k > 0) mode.shape = solved(k_, m_, mode.square, product(m_, mode.shape));
       auto momenta = product(m_, mode.shape);
@@ -174,7 +175,7 @@ class Block {
       }
       const double before = std::exchange(mode.residual, std::sqrt(sum / least_mass_));
       if (mode.residual == 0.0 ||
-          (mode.residual < 0x1p-84 * largest && mode.residual > 0.5 * before))
+          (mode.residual < small_residual * largest && mode.residual > 0.5 * before))
         break;
     }
   }
@@ -188,10 +189,10 @@ class Block {
 std::optional<TridiagonalModes> tridiagonal_modes(const Tridiagonal& stiffness,
                                                   const Tridiagonal& mass) {
   const auto n = stiffness.diagonal.size();
-  std::vector<std::pair<std::size_t, Mode>> modes;
+  std::vector<std::pair<std::size_t, RefinedMode>> modes;
   for (std::size_t first = 0, last = 0; first < n; first = last) {
-    for (last = first + 1;
-         last < n && (stiffness.beside[last - 1].hi != 0.0 || mass.beside[last - 1].hi != 0.0);)
+    for (last = first + 1; last < n && (stiffness.off_diagonal[last - 1].hi != 0.0 ||
+                                        mass.off_diagonal[last - 1].hi != 0.0);)
       ++last;
     const Block block(stiffness, mass, first, last);
     auto some = block.modes();

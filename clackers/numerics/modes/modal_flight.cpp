@@ -1,4 +1,4 @@
-#include "clackers/numerics/modal_flight.hpp"
+#include "clackers/numerics/modes/modal_flight.hpp"
 #include "clackers/base/constants.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "clackers/numerics/first_root.hpp"
-#include "clackers/numerics/modal_flight.hpp"
+#include "clackers/numerics/modes/modal_flight.hpp"
 
 namespace clackers::numerics {
 

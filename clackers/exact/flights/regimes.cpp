@@ -1,0 +1,160 @@
+// The modal systems of a piecewise motion: which contacts are held, which springs closed.
+#include <algorithm>
+#include <cmath>
+
+#include "clackers/base/constants.hpp"
+#include "clackers/exact/flights/piecewise_builder.hpp"
+#include "clackers/model/harmonic_load.hpp"
+#include "clackers/numerics/double_double.hpp"
+
+namespace clackers::exact {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
+  const auto known = std::ranges::find(closed_, closed);
+  if (known != closed_.end()) return std::size_t(known - closed_.begin());
+  auto structure = problem_;
+  if (!stiffnesses_.empty()) structure.system.nonlinear = {};
+  std::vector<model::HarmonicForce> forces;
+  if (const auto* load = problem_.system.add_load.target<model::HarmonicLoad>())
+    forces = load->forces();
+  std::vector<std::size_t> held;
+  MatrixXd rest = MatrixXd::Zero(problem_.dof(), problem_.dof());  // of the stiffness with springs
+  if (closed.back()) structure.system.damping *= law_.damping_after_impact;
+  for (std::size_t j = 0; j < contacts_.size(); ++j) {
+    if (!closed[j]) continue;
+    if (j < springs()) {
+      held.push_back(j);
+      continue;
+    }
+    const auto& [b, gap, restitution] = contacts_[j];
+    const double stiffness = stiffnesses_[j - springs()];
+    for (Index row = 0; row < b.size(); ++row)
+      for (Index column = 0; column < b.size(); ++column) {
+        if (b[row] == 0.0 || b[column] == 0.0) continue;
+        auto& entry = structure.system.stiffness(row, column);
+        const auto sum = numerics::DoubleDouble{entry, rest(row, column)} +
+                         numerics::two_product(stiffness, b[row]) * b[column];
+        entry = sum.hi;
+        rest(row, column) = sum.lo;
+      }
+    for (Index i = 0; i < b.size(); ++i)
+      if (const double force = stiffness * gap * b[i]; force != 0.0)
+        forces.push_back({int(i), force, 0.0, 0.0});
+  }
+  if (!forces.empty()) structure.system.add_load = model::HarmonicLoad(std::move(forces));
+  const auto constrained = constraint(held);
+  const auto& modes =
+      m_.regimes_.emplace_back(structure, m_.who_, constrained.basis, constrained.offset, rest);
+  const VectorXd none = VectorXd::Zero(m_.dof());
+  std::vector<Row> rows;
+  for (const auto& contact : contacts_)
+    rows.push_back({modes.observe(contact.direction, none, none, none, -contact.gap),
+                    modes.impulse(contact.direction)});
+  rows_.push_back(std::move(rows));
+  auto& of_contacts = m_.forces_.emplace_back(springs());
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const VectorXd need = constrained.forces.row(Index(k)).transpose();
+    of_contacts[held[k]] = modes.observe(modes.stiffness() * need, modes.damping() * need,
+                                         modes.mass() * need, -need, 0.0);
+  }
+  closed_.push_back(closed);
+  return closed_.size() - 1;
+}
+
+// Gauss and Jordan's elimination with the largest pivots; directions such as (1, -1, 0) stay exact.
+auto PiecewiseMotion::Builder::constraint(const std::vector<std::size_t>& contacts) const
+    -> Constraint {
+  const Index n = problem_.dof(), count = std::ssize(contacts);
+  MatrixXd left(count, n), right = MatrixXd::Identity(count, count);
+  VectorXd gaps(count);
+  for (Index k = 0; k < count; ++k) {
+    left.row(k) = contacts_[contacts[std::size_t(k)]].direction.transpose();
+    gaps[k] = contacts_[contacts[std::size_t(k)]].gap;
+  }
+  std::vector<Index> pivots;
+  std::vector<bool> is_pivot(std::size_t(n), false);
+  for (Index k = 0; k < count; ++k) {
+    Index column = 0;
+    left.row(k).cwiseAbs().maxCoeff(&column);
+    pivots.push_back(column);
+    is_pivot[std::size_t(column)] = true;
+    const double pivot = left(k, column);
+    left.row(k) /= pivot;
+    right.row(k) /= pivot;
+    gaps[k] /= pivot;
+    for (Index other = 0; other < count; ++other) {
+      const double share = left(other, column);
+      if (other == k || share == 0.0) continue;
+      left.row(other) -= share * left.row(k);
+      right.row(other) -= share * right.row(k);
+      gaps[other] -= share * gaps[k];
+    }
+  }
+  Constraint found{MatrixXd::Zero(n, n - count), MatrixXd::Zero(count, n), VectorXd::Zero(n)};
+  Index column = 0;
+  for (Index i = 0; i < n; ++i) {
+    if (is_pivot[std::size_t(i)]) continue;
+    found.basis(i, column) = 1.0;
+    for (Index k = 0; k < count; ++k) found.basis(pivots[std::size_t(k)], column) = -left(k, i);
+    ++column;
+  }
+  for (Index k = 0; k < count; ++k) {
+    found.offset[pivots[std::size_t(k)]] = gaps[k];
+    found.forces.col(pivots[std::size_t(k)]) = right.row(k).transpose();
+  }
+  return found;
+}
+
+std::vector<std::size_t> PiecewiseMotion::Builder::held(std::size_t regime) const {
+  std::vector<std::size_t> held;
+  for (std::size_t i = 0; i < springs(); ++i)
+    if (closed_[regime][i]) held.push_back(i);
+  return held;
+}
+
+std::size_t PiecewiseMotion::Builder::with_held(std::size_t regime,
+                                                const std::vector<std::size_t>& contacts,
+                                                bool held) {
+  auto closed = closed_[regime];
+  for (const auto i : contacts) closed[i] = held;
+  return this->regime(closed);
+}
+
+std::size_t PiecewiseMotion::Builder::after_impact(std::size_t regime) {
+  if (law_.damping_after_impact == 1.0) return regime;
+  auto closed = closed_[regime];
+  closed.back() = true;
+  return this->regime(closed);
+}
+
+MatrixXd PiecewiseMotion::Builder::change(std::size_t from, std::size_t to) const {
+  const auto &before = m_.regimes_[from], &after = m_.regimes_[to];
+  if (from == to) return MatrixXd::Identity(2 * before.dof(), 2 * before.dof());
+  return after.change(before.derivative(0), before.derivative(1));
+}
+
+void PiecewiseMotion::Builder::change_regime() {
+  const auto [contact, s] = *std::exchange(switching_, std::nullopt);
+  const auto now = flight().regime;
+  const double t = flight().t + s;
+  State state{now, t, m_.total(flight(), t), m_.covariance_after(flight(), s)};
+  if (!is_spring(contact)) {
+    passed_[contact] = false;
+    opens_[contact] = Begin::by_speed;
+    return begin(std::move(state));
+  }
+  const double time_error =
+      error_of(contact, s) / std::abs(watch(contact, s).slope) + 4.0 * epsilon * t;
+  m_.flights_.back().switches = Event{{t - time_error, t + time_error}, {contact}};
+  auto closed = closed_[now];
+  closed[contact].flip();
+  begin(seen_in(regime(closed), state));
+  m_.flights_.back().covariance = m_.covariance_after(flight(), 0.0);
+  if (closed[contact]) m_.spring_contacts_.push_back(t);
+}
+
+}  // namespace clackers::exact
