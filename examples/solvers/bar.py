@@ -8,7 +8,7 @@ import sys
 
 def main(problem, h, history):
     file = json.load(open(problem))
-    mesh, p = file["mesh"], file["problem"]
+    mesh, p = file.get("mesh", {"mass": "unknown, since the case has none"}), file["problem"]
     if mesh["mass"] != "lumped":
         sys.exit(f"bar.py: the mesh has mass = {mesh['mass']}; allowed: lumped")
     nodes, dof = mesh["nodes"], len(p["start"]["u"])

@@ -105,8 +105,9 @@ class Examples(ExecTest):
         command = f"python3 {SOLVERS}/bar.py {{case}} {{h}} {{out}}"
         self.agrees(command, "irregular:1", "4", [["bar-wall", "--set", "elements=4,mass=lumped"],
                                                   ["mass-on-bar", "--set", "elements=4,mass=lumped"]])
-        done = run("verify", "--exec", command, "--case", "bar-wall", "--set", "elements=4", *SHORT[-4:])
-        self.assertIn("mass = massless; allowed: lumped", done.stderr)
+        for case, mass in (("bar-wall", "massless"), ("stop", "unknown, since the case has none")):
+            done = run("verify", "--exec", command, "--case", case, *SHORT[-4:])
+            self.assertIn(f"mass = {mass}; allowed: lumped", done.stderr)
 
     def test_are_short(self):
         for name in os.listdir(SOLVERS):
