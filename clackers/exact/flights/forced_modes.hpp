@@ -19,7 +19,7 @@ namespace clackers::exact {
 /// The error of a flight is bounded by the defect of what was computed: the modes as they stand solve
 /// their own equations but for rounding, and what they leave of those of the structure acts as a
 /// force. Undamped structures of three diagonals, such as meshes of bars, have modes without such a defect
-/// (tridiagonal_modes.hpp).
+/// (tridiagonal_modes.hpp). The bounds are in forced_mode_errors.cpp.
 class ForcedModes {
  public:
   using Matrix = Eigen::MatrixXd;
