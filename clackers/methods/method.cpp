@@ -16,8 +16,11 @@ bool has_constant_load(const model::SmoothSystem<>& system) {
          std::ranges::all_of(load->forces(), [](const auto& f) { return f.frequency == 0.0; });
 }
 
-// Whether a constant force accelerates a gap towards its contact.
+// Whether a constant force accelerates a gap towards its contact, or springs accelerate it there.
 bool presses(const model::ImpactProblem<>& problem) {
+  const auto is_off_rest = [](const auto& contact) { return contact.gap != 0.0; };
+  if (!problem.system.stiffness.isZero(0.0) && std::ranges::any_of(problem.contacts, is_off_rest))
+    return true;
   const auto* load = problem.system.add_load.target<model::HarmonicLoad>();
   if (load == nullptr) return false;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(problem.dof());
@@ -56,10 +59,10 @@ Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool c
   const bool keeps_order =
       claim.behaviour == Behaviour::proper && claim.order >= facts.smooth_order;
   if (keeps_order && is_exact_on(facts, problem)) return {Behaviour::exact, 0.0, {}};
-  if (facts.scatters_pressed && collides && claim.behaviour == Behaviour::proper &&
-      presses(problem))
-    claim.behaviour = Behaviour::irregular;
   const auto& nonlinear = problem.system.nonlinear;
+  if (facts.scatters_pressed && collides && claim.behaviour == Behaviour::proper &&
+      (nonlinear || presses(problem)))
+    claim.behaviour = Behaviour::irregular;
   if (claim.order > 0.0 && nonlinear && nonlinear->has_kinks())
     return {Behaviour::irregular, std::min(2.0, facts.smooth_order), {}};
   return claim;

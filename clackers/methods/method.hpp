@@ -33,7 +33,8 @@ struct Facts {
   /// The orders are those of other motion. Every method of second order is exact under a constant force.
   ExactUnder exact_under = ExactUnder::no_force;
   Claim through_impacts{};  ///< of an integrator alone: nothing
-  /// Through impacts, where a constant force presses a contact closed: its order is that of an envelope.
+  /// Through impacts, where a constant force presses a contact closed, springs act on it in contact, or
+  /// forces are nonlinear: its order is that of an envelope.
   bool scatters_pressed = false;
   bool reports_impacts = true;
   /// Of a compliant contact: the error of its model falls as stiffness^-model_order where it models

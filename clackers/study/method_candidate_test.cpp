@@ -68,8 +68,11 @@ TEST(MethodCandidate, ClaimsWhatItsStepsAndEventsDo) {
   EXPECT_EQ(claim_on("cr", "billiard").behaviour, Behaviour::exact);
   EXPECT_EQ(claim_on("paoli-schatzman", "billiard").behaviour, Behaviour::proper);
   EXPECT_EQ(claim_on("paoli-schatzman", "ball").behaviour, Behaviour::irregular);
+  EXPECT_EQ(claim_on("paoli-schatzman", "piecewise").behaviour, Behaviour::irregular);
+  EXPECT_EQ(claim_on("paoli-schatzman", "stop").behaviour, Behaviour::proper);
   EXPECT_EQ(claim_on("explicit-generalized-alpha", "pressed-oscillator").behaviour,
             Behaviour::irregular);
+  EXPECT_EQ(claim_on("explicit-generalized-alpha", "pendulum").behaviour, Behaviour::irregular);
   EXPECT_EQ(claim_on("explicit-generalized-alpha", "ball").behaviour, Behaviour::exact);
   EXPECT_EQ(claim_on("explicit-generalized-alpha", "stop").behaviour, Behaviour::proper);
   EXPECT_EQ(claim_on("newmark+reversal", "ball").behaviour, Behaviour::irregular);

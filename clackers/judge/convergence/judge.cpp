@@ -93,6 +93,16 @@ bool is_growing_rounding(const LadderFit& fit, const measure::Ladder& ladder) {
   });
 }
 
+// Whether errors not far below the motion fall by no order that a method has, while most runs of the finest
+// level still miss impacts or have some too many.
+bool is_of_other_impacts(const LadderFit& fit, const measure::Ladder& ladder) {
+  constexpr double large = 0.01;
+  if (!shows_a_line(fit) || fit.order >= lowest_real_order || fit.errors.back() <= large)
+    return false;
+  const auto& runs = ladder.back().runs;
+  return 2 * std::ranges::count_if(runs, miscounts) > std::ssize(runs);
+}
+
 bool is_unexplained_floor(const LadderFit& fit) {
   return fit.behaviour == Behaviour::stagnating &&
          (fit.reason == Code("unexplained-floor").name() ||
@@ -124,6 +134,10 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
   } else if (fit.behaviour == Behaviour::undecided && open && errors_fall(fit) &&
              energy_is(ladder, too_little)) {
     fit.reason = Code("numerical-damping").name();
+  } else if (is_of_other_impacts(fit, ladder)) {
+    fit.behaviour = Behaviour::undecided;
+    fit.has_line = fit.on_envelope = false;
+    fit.reason = Code("too-few-levels").name();
   } else if (facts.finest && stopped_by_printing(fit, finest_run(ladder), *facts.finest)) {
     if (!fit.has_line) {
       fit.behaviour = Behaviour::stagnating;
@@ -136,7 +150,7 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
   if (is_of_claimed_order &&
       ((claim.behaviour == Behaviour::reduced && fit.behaviour == Behaviour::proper) ||
        (claim.behaviour == Behaviour::proper && fit.behaviour == Behaviour::irregular &&
-        fit.scatter < proper_scatter)))
+        fit.scatter < std::max(proper_scatter, std::exp2(proper_octaves * claim.order)))))
     fit.behaviour = claim.behaviour;
   return fit;
 }
@@ -233,14 +247,18 @@ Mismatch mismatch_of(const LadderFit& fit, const Claim& claim, const JudgeContex
   return fit.order < claim.order ? Mismatch::lower_order : Mismatch::higher_order;
 }
 
-// Whether displacements converge faster than claimed and velocities as claimed: errors of velocity that
-// cancel in their integral.
-bool only_velocity_is_as_claimed(const Assessment& found, const Claim& claim,
-                                 const JudgeContext& facts) {
+// Whether displacements converge faster than a claim that stands: velocities are as claimed, whose errors
+// cancel in their integral, or no impact happens, of which irregular convergence is claimed.
+bool is_more_than_claimed(const Assessment& found, const Claim& claim,
+                          const measure::Ladder& ladder, const JudgeContext& facts) {
   const auto& fit = found.displacement;
-  return found.verdict == Verdict::disagrees && shows_a_line(fit) && claim.order > 0.0 &&
-         fit.order > claim.order && !(claim.velocity_order > 0.0) &&
-         compare(found.velocity, claim, facts) == Verdict::agrees;
+  if (found.verdict != Verdict::disagrees || !shows_a_line(fit) || !(claim.order > 0.0) ||
+      !(fit.order > claim.order) || claim.velocity_order > 0.0)
+    return false;
+  const auto& impacts = finest_run(ladder).impacts;
+  const bool of_no_impact =
+      claim.behaviour == Behaviour::irregular && impacts && impacts->expected == 0;
+  return of_no_impact || compare(found.velocity, claim, facts) == Verdict::agrees;
 }
 
 int severity(Verdict verdict) {
@@ -254,7 +272,7 @@ void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder
             const JudgeContext& facts) {
   const auto& fit = found.displacement;
   found.verdict = compare(fit, claim, facts);
-  if (only_velocity_is_as_claimed(found, claim, facts)) found.verdict = Verdict::agrees;
+  if (is_more_than_claimed(found, claim, ladder, facts)) found.verdict = Verdict::agrees;
   // One history without a claim was not fitted for its order.
   const bool one_history =
       facts.finest && !claim.is_made() && ladder.size() == 1 && ladder.front().runs.size() == 1;

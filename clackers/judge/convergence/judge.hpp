@@ -17,8 +17,9 @@ namespace clackers::judge {
 inline constexpr double order_tolerance = 0.1;
 inline constexpr double envelope_order_tolerance = 0.25;
 
-/// Errors within this factor of a line of the claimed order are proper, as claimed.
-inline constexpr double proper_scatter = 2.0;
+/// Errors within this factor of a line of the claimed order are proper, as claimed, and so are those
+/// within what these octaves of the step make of it: more where the order is above four.
+inline constexpr double proper_scatter = 2.0, proper_octaves = 0.25;
 
 /// A run that ends with less or more than these shares of the true energy has not followed the
 /// motion, whatever its error relative to an envelope: beyond a factor 2 amplitudes are off by 0.29
@@ -87,6 +88,8 @@ struct JudgeContext {
 ///                                   any that is as large as the motion
 ///     undecided [numerical-damping] undecided with falling errors, and most of those runs end with
 ///                                   less than half of it
+///     undecided [too-few-levels]    errors above a hundredth of the motion fall by no order that a
+///                                   method has, and most runs of the finest level miscount impacts
 ///     stagnating [printed-digits]   the finest history's error is within `rounding_slack` of what
 ///                                   printing makes, and the fit is exact, a floor or has too few
 ///                                   levels
@@ -102,11 +105,12 @@ struct JudgeContext {
 /// above, or the claimed reason of a floor (a floor without a claimed reason agrees with any, also
 /// with one as large as the motion where impacts are simultaneous);
 /// otherwise `disagrees`. A claim is two-sided: better than claimed is another behaviour and
-/// disagrees as well, unless velocities are as claimed. Impacts missed or extra on the two finest
-/// levels disagree whatever the errors say, unless the claim is a floor and their number is right: then
-/// they came too late to be matched; where an envelope is claimed, only if most runs of both levels
-/// miscount. A claim to diverge says nothing of impacts. A claim to converge disagrees where the files
-/// converge to another limit.
+/// disagrees as well, unless velocities are as claimed, or an irregular order is claimed and no impact
+/// happens. Impacts missed or extra on the two finest levels disagree whatever the errors say, unless
+/// the claim is a floor and their number is right (then they came too late to be matched) or, at the very
+/// floor that is claimed, above a hundredth of the motion, off by at most a half; where an envelope is claimed, only if most
+/// runs of both levels miscount. A claim to diverge says nothing of
+/// impacts. A claim to converge disagrees where the files converge to another limit.
 ///
 /// A tolerance has a verdict of its own, `undecided` where printing makes more than the difference
 /// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of
@@ -126,6 +130,9 @@ const measure::RunScore& finest_run(const measure::Ladder& ladder);
 
 /// What the verdict rests on beside the fits: `of_behaviour` is the verdict of the displacement's
 /// behaviour alone. Empty for no levels.
+/// Whether a run ended and missed impacts or had some too many.
+bool miscounts(const measure::RunScore& run);
+
 std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
                                   const measure::Ladder& ladder, const Claim& claim,
                                   const JudgeContext& facts);

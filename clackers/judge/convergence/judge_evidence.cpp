@@ -14,10 +14,6 @@ namespace {
 // Smaller shares are not reported.
 constexpr double least_reported_share = 1.0 / 16.0;
 
-bool miscounts(const measure::RunScore& run) {
-  return run.finished && run.impacts && run.impacts->missed + run.impacts->extra > 0;
-}
-
 Evidence miscount(const measure::RunScore& run) {
   const auto& found = *run.impacts;
   return evidence("impacts-miscounted", Verdict::disagrees,
@@ -28,12 +24,19 @@ Evidence miscount(const measure::RunScore& run) {
 // decide nothing, steps may be too long to find them: then only if every run of both levels misses as
 // many and has as many too many, as no refinement will mend. Where errors may scatter as claimed, gentle
 // impacts are off by more than their match may be at some steps: then only if most runs miscount.
-// A claim to diverge says nothing of impacts, nor does a method without a law of them.
+// A claimed floor may make impacts late; the very one that is claimed, where it is not small, half as
+// many more or fewer. A claim to diverge says nothing of impacts, nor does a method without a law of them.
 std::optional<Evidence> miscounted(const measure::Ladder& ladder, const LadderFit& fit,
-                                   const Claim& claim) {
+                                   const Claim& claim, Verdict of_behaviour) {
   if (claim.behaviour == Behaviour::divergent || claim.reason == Code("no-impact-law").name())
     return {};
-  const bool late_is_allowed = claim.behaviour == Behaviour::stagnating;
+  constexpr double small = 0.01;
+  const auto is_of_floor = [&](const measure::ImpactScore& impacts) {
+    const auto more = std::abs(impacts.found - impacts.expected);
+    return claim.behaviour == Behaviour::stagnating &&
+           (more == 0 ||
+            (fit.reason == claim.reason && fit.floor > small && 2 * more <= impacts.expected));
+  };
   const measure::RunScore* first = nullptr;
   bool all_alike = true;
   int miscounting = 0, finished = 0;
@@ -42,7 +45,7 @@ std::optional<Evidence> miscounted(const measure::Ladder& ladder, const LadderFi
     for (const auto& run : level->runs) {
       if (!run.finished) continue;
       ++finished;
-      if (!miscounts(run) || (late_is_allowed && run.impacts->found == run.impacts->expected)) {
+      if (!miscounts(run) || is_of_floor(*run.impacts)) {
         all_alike = false;
         continue;
       }
@@ -56,7 +59,7 @@ std::optional<Evidence> miscounted(const measure::Ladder& ladder, const LadderFi
   const bool may_scatter = claim.behaviour == Behaviour::irregular && fit.has_line;
   if (may_scatter && 2 * miscounting <= finished) return {};
   const bool open =
-      fit.behaviour == Behaviour::undecided || (fit.has_line && fit.order < lowest_real_order);
+      of_behaviour == Verdict::undecided || (fit.has_line && fit.order < lowest_real_order);
   if (open && (!all_alike || fit.reason == Code("contact-not-resolved").name())) return {};
   return miscount(*first);
 }
@@ -145,6 +148,10 @@ std::vector<Evidence> of_the_fit(const LadderFit& fit, const measure::Ladder& la
 
 }  // namespace
 
+bool miscounts(const measure::RunScore& run) {
+  return run.finished && run.impacts && run.impacts->missed + run.impacts->extra > 0;
+}
+
 const measure::RunScore& finest_run(const measure::Ladder& ladder) {
   return ladder.back().runs.back();
 }
@@ -163,7 +170,7 @@ std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
   const bool claimed = claim.is_made();
   if (fit.reason == Code("printed-digits").name())
     all.push_back(evidence("printed-digits", of_behaviour, {finest.u_error, printed}));
-  if (claimed) add(miscounted(ladder, fit, claim));
+  if (claimed) add(miscounted(ladder, fit, claim, of_behaviour));
   // Whatever the order, it is that of another motion.
   const auto wrong_limit = evidence("wrong-limit", Verdict::disagrees);
   if (facts.wrong_limit && claims_convergence(claim)) all.push_back(wrong_limit);

@@ -381,6 +381,45 @@ TEST(Judge, LateImpactsDoNotContradictAFloorButMissedOnesDo) {
   EXPECT_EQ(judge(late, floor_claim, {.contact_time = 0.0157}).verdict, Verdict::disagrees);
 }
 
+TEST(Judge, AFloorThatIsNotSmallWinsAndLosesImpacts) {
+  const auto verdict = [](double floor, long long found) {
+    auto flat = scores([&](double) { return floor; });
+    every_run(flat, 0, [&](measure::RunScore& run) {
+      run.impacts = measure::ImpactScore{6, found, 2, 4, found - 2};
+    });
+    return judge(flat, floor_claim, {.contact_time = 0.0157}).verdict;
+  };
+  EXPECT_EQ(verdict(0.02, 9), Verdict::agrees);
+  EXPECT_EQ(verdict(0.02, 10), Verdict::disagrees);
+  EXPECT_EQ(verdict(0.02, 3), Verdict::agrees);
+  EXPECT_EQ(verdict(0.02, 2), Verdict::disagrees);
+  EXPECT_EQ(verdict(0.005, 7), Verdict::disagrees);
+}
+
+TEST(Judge, AnEnvelopeOfNoOrderIsOpenWhileImpactsAreWonAndLost) {
+  const auto found = [](double scale, double order, std::size_t wrong) {
+    Scatter scatter(2.0, 5);
+    auto ladder = scores([&](double h) { return scale * std::pow(h, order) / scatter(); });
+    for (std::size_t k = 0; k < wrong; ++k)
+      ladder.back().runs[k].impacts = measure::ImpactScore{6, 7, 6, 0, 1};
+    return judge(ladder, second);
+  };
+  EXPECT_EQ(found(1.0, 0.5, 5).verdict, Verdict::undecided);
+  EXPECT_EQ(found(1.0, 0.5, 5).reason, "too-few-levels");
+  EXPECT_EQ(found(1.0, 0.5, 4).verdict, Verdict::disagrees);
+  EXPECT_EQ(found(0.1, 0.5, 5).verdict, Verdict::disagrees);
+  EXPECT_EQ(found(1e2, 1.0, 5).verdict, Verdict::disagrees);
+}
+
+// Steps that do not resolve a contact find some impacts of it by chance, on an envelope that falls.
+TEST(Judge, ContactsThatAreNotResolvedMiscountImpacts) {
+  Scatter scatter(8.0, 5);
+  auto ladder = scores([&](double h) { return 10.0 * h / scatter(); });
+  ladder.back().runs.back().impacts = measure::ImpactScore{6, 7, 6, 0, 1};
+  EXPECT_EQ(judge(ladder, floor_claim, {.contact_time = 1e-3}).verdict, Verdict::undecided);
+  EXPECT_EQ(judge(ladder, floor_claim, {.contact_time = 1e-3}).reason, "contact-not-resolved");
+}
+
 TEST(Judge, LostEnergyIsNoGrowth) {
   auto flat = scores([](double h) { return 0.3 + h; });
   every_run(flat, 6, [](measure::RunScore& run) { run.energy_ratio = 0.4; });
@@ -554,6 +593,19 @@ TEST(Judge, AnEnvelopeIsThatOfTheFinerHalfWhereCoarseErrorsFallFaster) {
   EXPECT_EQ(verdict(0.0).verdict, Verdict::disagrees);
 }
 
+TEST(Judge, AnIrregularOrderIsOfImpacts) {
+  const auto verdict = [](long long impacts, double order, const Claim& claim = rough) {
+    auto ladder = scores(power(order));
+    for (auto& level : ladder)
+      for (auto& run : level.runs) run.impacts = measure::ImpactScore{impacts, impacts, impacts};
+    return judge(ladder, claim).verdict;
+  };
+  EXPECT_EQ(verdict(0, 2.0), Verdict::agrees);
+  EXPECT_EQ(verdict(0, 4.0, second), Verdict::disagrees);
+  EXPECT_EQ(verdict(1, 2.0), Verdict::disagrees);
+  EXPECT_EQ(verdict(0, 0.5), Verdict::disagrees);
+}
+
 TEST(Judge, AClaimToDivergeSaysNothingOfImpacts) {
   auto growth = scores([](double h) { return 1e-3 / h; });
   for (auto& run : growth.back().runs) run.impacts = measure::ImpactScore{6, 7, 6, 0, 1};
@@ -600,6 +652,17 @@ TEST(Judge, ErrorsWithinAFactorTwoOfTheClaimedLineAreProper) {
   };
   EXPECT_EQ(judge(scores(scattered(1.9)), second).verdict, Verdict::agrees);
   EXPECT_EQ(judge(scores(scattered(8.0)), second).verdict, Verdict::disagrees);
+}
+
+TEST(Judge, WhatAQuarterOfAnOctaveMakesOfAHighOrderIsProper) {
+  const auto swings = [](double factor) {
+    return scores(
+        [=](double h) { return 1e4 * std::pow(h, 6.0) * synthetic::swing(h, factor, 1.0); },
+        {.levels = 5});
+  };
+  const Claim sixth{Behaviour::proper, 6.0, {}};
+  EXPECT_EQ(judge(swings(1.6), sixth).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(swings(2.0), sixth).verdict, Verdict::disagrees);
 }
 
 }  // namespace

@@ -20,6 +20,18 @@ std::vector<ErrorLevel> scattered(double order, double factor, unsigned seed,
   return ladder([=](double h) mutable { return 2.0 * pow(h, order) / scatter(); }, shape);
 }
 
+// Eight levels, of which the coarsest two scatter by ten and the next three by `factor`; the last are
+// rounding.
+std::vector<ErrorLevel> of_order_six(double factor) {
+  Scatter rough(10.0, 7), fine(factor, 3);
+  return ladder(
+      [=](double h) mutable {
+        const double scatter = h > 0.0251 ? 10.0 / rough() : 1.0 / fine();
+        return std::max(2e4 * pow(h, 6.0) * scatter, 1e-14 / h);
+      },
+      {.coarsest = 0.1});
+}
+
 std::vector<ErrorLevel> with_one_factor(double factor) {
   auto made = ladder([](double h) { return h * h; });
   made[5][4].error *= factor;
@@ -71,6 +83,18 @@ const VerdictSequence scatter_rows[] = {
      },
      .claim = claims(1), .behaviour = irregular, .verdict = Verdict::disagrees, .order = 1.0,
      .within = 0.05},
+    {.name = "three levels of order six between rough ones and rounding are proper",
+     .make = [] { return of_order_six(1.0); },
+     .claim = claims(6), .behaviour = proper, .verdict = Verdict::agrees, .order = 6.0,
+     .within = 0.3},
+    {.name = "three levels of another order than claimed are no line of it",
+     .make = [] { return of_order_six(1.0); },
+     .claim = claims(5), .behaviour = irregular, .verdict = Verdict::disagrees, .order = 6.8,
+     .within = 0.3},
+    {.name = "three levels of order six that scatter by four as the others do are irregular",
+     .make = [] { return of_order_six(4.0); },
+     .claim = claims(6), .behaviour = irregular, .verdict = Verdict::disagrees, .order = 7.0,
+     .within = 1.0},
     {.name = "scatter by a tenth is still a line",
      .make = [] { return scattered(2.0, 1.2, 8); },
      .claim = claims(2), .behaviour = proper, .verdict = Verdict::agrees, .order = 2.0,

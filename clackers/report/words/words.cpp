@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "clackers/base/text.hpp"
+#include "clackers/judge/convergence/judge.hpp"
 #include "clackers/report/format.hpp"
 #include "clackers/study/refinement.hpp"
 
@@ -193,7 +194,12 @@ OpeningLine opening_line(const record::Record& record) {
     line.has_finding = true;
     line.text += text_of(*found);
   } else {
-    line.text += fmt::format("{}, as claimed.", fit_text(subject.assessment.displacement));
+    const auto& fit = subject.assessment.displacement;
+    const double most = (1.0 + judge::envelope_order_tolerance) * subject.claim.order;
+    line.text += fit_text(fit);
+    line.text += fit.has_line && subject.claim.order > 0.0 && fit.order > most
+                     ? fmt::format(", more than claimed ({}).", claim_text(subject.claim))
+                     : ", as claimed.";
   }
   return line;
 }

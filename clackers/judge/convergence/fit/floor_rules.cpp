@@ -74,6 +74,16 @@ bool floor_is_flat(const RawPoints& points, const TwoTerms& law) {
   return has_no_trend(below);
 }
 
+// Whether a term of order one that begins to show bends the errors as a floor would, and better. Errors
+// nearly as large as the motion, of the coarsest levels, follow neither law.
+bool bends_to_order_one(const Range& range) {
+  constexpr int levels = 6;
+  const int first = std::max(range.tracked, range.clear - levels + 1);
+  const auto floor = fit_two_terms(range.levels, first, range.clear, {});
+  const auto term = fit_two_terms(range.levels, first, range.clear, {.p = 0.0, .q = 1.0});
+  return floor && term && term->scatter < floor->scatter;
+}
+
 LadderFit with_law(const Range& range, const TwoTerms& law, Floor floor) {
   auto fit = with_floor(range.blank, floor);
   fit.has_line = true;
@@ -138,12 +148,7 @@ RuleResult line_with_floor(const Range& range, const FitContext& context) {
   const auto law = law_with_floor(range);
   const auto points = raw_points(range.levels, range.tracked, range.clear);
   if (!law || !floor_is_flat(points, *law)) return {};
-  // A term of order one that begins to show bends a line as a floor does.
-  const auto other =
-      law->p > 1.0 + straight_rates
-          ? fit_two_terms(range.levels, range.tracked, range.clear, {.p = 0.0, .q = 1.0})
-          : std::nullopt;
-  if (other && other->scatter < law->scatter) return {};
+  if (law->p > 1.0 + straight_rates && bends_to_order_one(range)) return {};
   Floor floor{.error = law->b, .step = law->crossing};
   for (std::size_t i = 0; i < points.x.size(); ++i) {
     const double step = std::exp(points.x[i]);

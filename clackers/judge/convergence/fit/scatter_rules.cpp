@@ -15,8 +15,19 @@ bool is_flat(const Window& tail) {
          slope - spread > -lowest_real_order;
 }
 
+// The claimed line of the finest clear levels, where the order is so high that only three lie between
+// rough steps and rounding.
+std::optional<Window> fine_line(const Range& range, const FitContext& context) {
+  const double claimed = context.claimed_order;
+  const auto line = claimed > 0.0 ? line_up_to(range, context, range.clear) : std::nullopt;
+  if (!line || std::abs(line->line.slope - claimed) > context.order_tolerance * claimed) return {};
+  return line;
+}
+
 LadderFit envelope_decides(const Range& range, const FitContext& context) {
   if (one_sample_a_level(range)) return undecided(range, "one-sample-a-level");
+  if (const auto line = fine_line(range, context))
+    return shows(with_line(range, *line), Behaviour::proper);
   const auto upper = envelope(range.levels, range.tracked, range.clear);
   if (!upper)
     return undecided(range,
