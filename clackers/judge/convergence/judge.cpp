@@ -278,7 +278,11 @@ void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder
       facts.finest && !claim.is_made() && ladder.size() == 1 && ladder.front().runs.size() == 1;
   if (!one_history) found.reason = fit.reason;
   const bool is_open = found.verdict == Verdict::undecided;
-  if (is_open && fit.on_envelope) found.reason = Code("more-samples").name();
+  // Of errors that are not far below the motion finer levels tell more.
+  constexpr double large = 0.01;
+  if (is_open && fit.on_envelope)
+    found.reason =
+        (fit.errors.back() > large ? Code("too-few-levels") : Code("more-samples")).name();
   if (is_open && claim.behaviour == Behaviour::stagnating && shows_a_line(fit) &&
       is_above_floor(fit, facts))
     found.reason = Code("contact-not-resolved").name();
@@ -329,12 +333,13 @@ Assessment judge(const measure::Ladder& ladder, const Claim& claim, const JudgeC
   context.saturation = std::numeric_limits<double>::infinity();
   found.impact_time = fit(ladder, context, impact_time_error);
 
-  // Coarse steps whose errors fall faster hide an envelope of lower order, where the finer half shows it.
+  // Coarse steps whose errors fall faster hide an envelope of lower order, and those whose errors are as
+  // large as impacts make them one of higher order, where the finer half shows it.
   constexpr std::ptrdiff_t least_levels = 5;
   const auto half = std::max(least_levels, std::ssize(ladder) / 2);
+  const auto of_all = compare(found.displacement, claim, facts);
   if (claim.behaviour == Behaviour::irregular && found.displacement.on_envelope &&
-      found.displacement.order > claim.order && half < std::ssize(ladder) &&
-      compare(found.displacement, claim, facts) == Verdict::disagrees) {
+      half < std::ssize(ladder) && of_all != Verdict::agrees) {
     const measure::Ladder finer(ladder.end() - half, ladder.end());
     auto fine = fit(finer, of_displacement, displacement_error);
     const int coarser = int(std::ssize(ladder) - half);
@@ -342,7 +347,12 @@ Assessment judge(const measure::Ladder& ladder, const Claim& claim, const JudgeC
     fine.last_level += coarser;
     fine.steps = found.displacement.steps;
     fine.errors = found.displacement.errors;
-    if (compare(fine, claim, facts) != Verdict::disagrees) found.displacement = std::move(fine);
+    const auto of_fine = compare(fine, claim, facts);
+    const double whole = found.displacement.order;
+    const bool is_lower = whole > claim.order;
+    const bool is_higher = fine.order - fine.spread > whole;
+    if ((is_lower && of_fine != Verdict::disagrees) || (is_higher && of_fine == Verdict::agrees))
+      found.displacement = std::move(fine);
   }
   if (!facts.no_ladder.empty())
     for (auto* one : {&found.displacement, &found.velocity, &found.impact_time}) {

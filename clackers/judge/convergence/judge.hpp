@@ -98,6 +98,9 @@ struct JudgeContext {
 ///     reduced                       a straight line of the very order that is claimed as reduced
 ///     what fit_ladder found         otherwise
 ///
+/// Where an envelope that is claimed does not agree, that of the finer half of the levels counts: if it no
+/// longer falls too fast, or if its whole interval lies above the slope of all levels and it agrees.
+///
 /// Verdict on the claim: `not claimed` without a claim; `undecided` where the behaviour is, where an
 /// exact motion met a claim of some order (nothing above rounding to measure it on), where printed
 /// digits hide the order, and where the spread of an envelope's order covers a claim beyond the

@@ -411,6 +411,34 @@ TEST(Judge, AnEnvelopeOfNoOrderIsOpenWhileImpactsAreWonAndLost) {
   EXPECT_EQ(found(1e2, 1.0, 5).verdict, Verdict::disagrees);
 }
 
+// Errors that stay near a twentieth of the motion until impacts are told apart, then fall by order one.
+TEST(Judge, AnEnvelopeIsThatOfTheFinerHalfWhereCoarseErrorsAreLarge) {
+  const auto found = [](int levels, double scale, double order) {
+    Scatter scatter(8.0, 5);
+    const auto error = [&](double h) {
+      const double small = scale * std::pow(h, order) / scatter();
+      return small / (1.0 + small / 0.05);
+    };
+    return judge(scores(error, {.levels = levels}), rough);
+  };
+  EXPECT_EQ(found(12, 40.0, 1.0).verdict, Verdict::agrees);
+  EXPECT_GE(found(12, 40.0, 1.0).displacement.first_level, 6);
+  EXPECT_EQ(found(14, 2.0, 0.5).verdict, Verdict::disagrees);
+}
+
+TEST(Judge, AnOpenEnvelopeOfLargeErrorsAsksForFinerLevels) {
+  const auto reason = [](double scale) {
+    Scatter wild(30.0, 4);
+    const auto found =
+        judge(scores([&](double h) { return scale * std::pow(h, 0.6) / wild(); }), rough);
+    EXPECT_EQ(found.verdict, Verdict::undecided);
+    EXPECT_TRUE(found.displacement.on_envelope);
+    return found.reason;
+  };
+  EXPECT_EQ(reason(5.0), "too-few-levels");
+  EXPECT_EQ(reason(0.5), "more-samples");
+}
+
 // Steps that do not resolve a contact find some impacts of it by chance, on an envelope that falls.
 TEST(Judge, ContactsThatAreNotResolvedMiscountImpacts) {
   Scatter scatter(8.0, 5);
