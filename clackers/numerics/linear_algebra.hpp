@@ -36,10 +36,17 @@ Eigen::MatrixXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::MatrixX
 /// Columns Z with rows Z = 0 and Z^T M Z = 1, for independent rows and a positive definite M.
 Eigen::MatrixXd unseen_directions(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& mass);
 
-/// A X, without the half of the columns of A that is 0, as that for velocities often is where rows are
-/// displacements. A has an even number of columns.
+/// Which columns of a matrix with an even number of them are not all 0: that half for velocities often is
+/// where rows are displacements.
+enum class Half { both, left, right };
+Half nonzero_half(const Eigen::Ref<const Eigen::MatrixXd>& a);
+/// A X, without the half of the columns of A that is 0.
 Eigen::MatrixXd product_of_halves(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                                  const Eigen::MatrixXd& x);
+                                  const Eigen::MatrixXd& x, Half nonzero);
+inline Eigen::MatrixXd product_of_halves(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                                         const Eigen::MatrixXd& x) {
+  return product_of_halves(a, x, nonzero_half(a));
+}
 /// The same of the upper and the lower rows of A.
 Eigen::MatrixXd product_of_quarters(const Eigen::MatrixXd& a, const Eigen::MatrixXd& x);
 

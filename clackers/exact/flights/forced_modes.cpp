@@ -66,6 +66,7 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
   for (int order = 0; order <= 3; ++order) {
     const Matrix of_modes = system_.derivative(order);
     derivatives_.push_back(onto.times(of_modes));
+    nonzero_.push_back(numerics::nonzero_half(derivatives_.back()));
     derivative_sizes_.push_back(onto_size.times(of_modes.cwiseAbs()));
   }
   const Index n = mass_.rows(), free = dof();

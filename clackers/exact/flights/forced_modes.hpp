@@ -7,6 +7,7 @@
 
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/numerics/first_root.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 #include "clackers/numerics/modes/modal_form.hpp"
 
 namespace clackers::exact {
@@ -74,6 +75,10 @@ class ForcedModes {
   const Matrix& derivative(int order) const { return derivatives_[std::size_t(order)]; }
   /// What was added up for it.
   const Matrix& derivative_size(int order) const { return derivative_sizes_[std::size_t(order)]; }
+  /// The derivatives of u of that order in states z, one a column, without that of the forces.
+  Matrix derived_states(int order, const Matrix& z) const {
+    return numerics::product_of_halves(derivative(order), z, nonzero_[std::size_t(order)]);
+  }
   Vector displacement(const Vector& z) const { return offset_ + derivatives_[0] * z; }
   Vector velocity(const Vector& z) const { return derivatives_[1] * z; }
   /// The row of which row . z is the time derivative, modes alone.
@@ -131,6 +136,7 @@ class ForcedModes {
   numerics::ModalSystem system_;
   Vector offset_;
   std::vector<Matrix> derivatives_, derivative_sizes_;
+  std::vector<numerics::Half> nonzero_;     // of the derivatives
   Matrix inverse_, impulse_response_;       // z by (u, v), and by impulses
   Matrix basis_residual_, force_residual_;  // of z: its own error, and the rate of it
   Vector square_errors_;                    // of modes without a defect, instead of the residuals

@@ -75,8 +75,8 @@ void PiecewiseMotion::sample(std::span<const double> times, Side side,
     const auto at = [&](std::span<double> to) {
       return Eigen::Map<MatrixXd>(to.data() + i * n, dof(), Index(count));
     };
-    at(out.u) = numerics::product_of_halves(modes.derivative(0), now).colwise() + modes.offset();
-    at(out.v) = numerics::product_of_halves(modes.derivative(1), now);
+    at(out.u) = modes.derived_states(0, now).colwise() + modes.offset();
+    at(out.v) = modes.derived_states(1, now);
     for (std::size_t k = 0; !out.a.empty() && k < count; ++k)
       Eigen::Map<VectorXd>(out.a.data() + (i + k) * n, dof()) =
           modes.acceleration(now.col(Index(k)), times[i + k]);
