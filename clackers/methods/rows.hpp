@@ -120,10 +120,8 @@ std::unique_ptr<model::Run> prepare_run(const Method& method, const model::Impac
     return std::make_unique<MethodRun<Loop<Dof>, Dof>>(method.facts().name, problem, plan,
                                                        parts...);
   };
-  if (!problem.system.nonlinear) {
-    if (problem.dof() == 1) return run.template operator()<1>();
-    if (problem.dof() == 2) return run.template operator()<2>();
-  }
+  if (problem.dof() == 1) return run.template operator()<1>();
+  if (problem.dof() == 2) return run.template operator()<2>();
   return run.template operator()<model::any_dof>();
 }
 

@@ -113,6 +113,46 @@ void validate(const ImpactProblem<>& problem) {
     require_friction(problem.frictions[i], i + 1, dof);
 }
 
+namespace {
+
+// A force for any number of degrees of freedom, for Dof of them. Its vectors are those of one call.
+template <int Dof>
+class SizedForce final : public NonlinearForce<Dof> {
+ public:
+  explicit SizedForce(std::shared_ptr<const NonlinearForce<any_dof>> force)
+      : force_(std::move(force)), u_(Dof), v_(Dof), p_(Dof), dp_du_(Dof, Dof), dp_dv_(Dof, Dof) {}
+
+  void add(const Vector<Dof>& u, const Vector<Dof>& v, Vector<Dof>& p) const override {
+    u_ = u;
+    v_ = v;
+    p_ = p;
+    force_->add(u_, v_, p_);
+    p = p_;
+  }
+  void add_tangent(const Vector<Dof>& u, const Vector<Dof>& v, Matrix<Dof>& dp_du,
+                   Matrix<Dof>& dp_dv) const override {
+    u_ = u;
+    v_ = v;
+    dp_du_ = dp_du;
+    dp_dv_ = dp_dv;
+    force_->add_tangent(u_, v_, dp_du_, dp_dv_);
+    dp_du = dp_du_;
+    dp_dv = dp_dv_;
+  }
+  double potential(const Vector<Dof>& u) const override {
+    u_ = u;
+    return force_->potential(u_);
+  }
+  bool has_kinks() const override { return force_->has_kinks(); }
+
+ private:
+  std::shared_ptr<const NonlinearForce<any_dof>> force_;
+  mutable Vector<any_dof> u_, v_, p_;
+  mutable Matrix<any_dof> dp_du_, dp_dv_;
+};
+
+}  // namespace
+
 template <int Dof>
 ImpactProblem<Dof> with_dof(const ImpactProblem<>& problem) {
   if constexpr (Dof == any_dof) {
@@ -122,13 +162,10 @@ ImpactProblem<Dof> with_dof(const ImpactProblem<>& problem) {
       throw InputError(fmt::format("problem: it has {} degrees of freedom; {} were expected.",
                                    problem.dof(), Dof),
                        "wrong-size");
-    if (problem.system.nonlinear)
-      throw InputError(
-          "problem: a nonlinear force written for any number of degrees of freedom "
-          "cannot be used with a number known at compile time. Keep it general.",
-          "wrong-size");
     const auto& s = problem.system;
-    ImpactProblem<Dof> fixed{{s.mass, s.damping, s.stiffness, s.add_load, nullptr},
+    std::shared_ptr<const NonlinearForce<Dof>> nonlinear;
+    if (s.nonlinear) nonlinear = std::make_shared<SizedForce<Dof>>(s.nonlinear);
+    ImpactProblem<Dof> fixed{{s.mass, s.damping, s.stiffness, s.add_load, std::move(nonlinear)},
                              {},
                              {problem.start.t, problem.start.u, problem.start.v},
                              problem.end,

@@ -69,8 +69,8 @@ struct ImpactProblem {
 void validate(const ImpactProblem<>& problem);
 
 /// The same problem with its number of degrees of freedom known at compile time (Dof is 1, 2 or
-/// any_dof). A nonlinear force does not carry over, since its type knows the size: throws
-/// InputError if there is one and Dof is not any_dof, or if the sizes differ.
+/// any_dof); its nonlinear force is then not for several threads at once. Throws InputError if the sizes
+/// differ.
 template <int Dof>
 ImpactProblem<Dof> with_dof(const ImpactProblem<>& problem);
 

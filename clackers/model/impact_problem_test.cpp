@@ -113,17 +113,39 @@ TEST(ImpactProblem, IsTheSameWithItsSizeKnown) {
   EXPECT_THROW(with_dof<1>(problem), InputError);
 }
 
-struct Nothing : NonlinearForce<any_dof> {
-  void add(const Vector<any_dof>&, const Vector<any_dof>&, Vector<any_dof>&) const override {}
-  void add_tangent(const Vector<any_dof>&, const Vector<any_dof>&, Matrix<any_dof>&,
-                   Matrix<any_dof>&) const override {}
+struct Coupled : NonlinearForce<any_dof> {
+  void add(const Vector<any_dof>& u, const Vector<any_dof>& v, Vector<any_dof>& p) const override {
+    p[0] += u[0] * u[1];
+    p[1] += v[0] * u[1];
+  }
+  void add_tangent(const Vector<any_dof>& u, const Vector<any_dof>& v, Matrix<any_dof>& dp_du,
+                   Matrix<any_dof>& dp_dv) const override {
+    dp_du(0, 0) += u[1];
+    dp_du(0, 1) += u[0];
+    dp_du(1, 1) += v[0];
+    dp_dv(1, 0) += u[1];
+  }
+  double potential(const Vector<any_dof>& u) const override { return u[0] + 3.0 * u[1]; }
+  bool has_kinks() const override { return true; }
 };
 
-TEST(ImpactProblem, KeepsANonlinearForceGeneral) {
+TEST(ImpactProblem, ANonlinearForceTakesVectorsOfTheSize) {
   auto problem = sound();
-  problem.system.nonlinear = std::make_shared<Nothing>();
-  EXPECT_THROW(with_dof<2>(problem), InputError);
+  problem.system.nonlinear = std::make_shared<Coupled>();
   EXPECT_EQ(with_dof<any_dof>(problem).system.nonlinear, problem.system.nonlinear);
+  const auto force = with_dof<2>(problem).system.nonlinear;
+  const Vector<2> u(2.0, 3.0), v(5.0, 7.0);
+  Vector<2> p(0.5, 0.25);
+  force->add(u, v, p);
+  EXPECT_EQ(p, (Vector<2>(6.5, 15.25)));
+  Matrix<2> dp_du = Matrix<2>::Constant(1.0), dp_dv = Matrix<2>::Constant(-1.0);
+  force->add_tangent(u, v, dp_du, dp_dv);
+  EXPECT_EQ(dp_du, (Matrix<2>{{4.0, 3.0}, {1.0, 6.0}}));
+  EXPECT_EQ(dp_dv, (Matrix<2>{{-1.0, -1.0}, {2.0, -1.0}}));
+  EXPECT_EQ(force->potential(u), 11.0);
+  EXPECT_TRUE(force->has_kinks());
+  problem.system.nonlinear = nullptr;
+  EXPECT_EQ(with_dof<2>(problem).system.nonlinear, nullptr);
 }
 
 TEST(Contact, OpensAlongItsRow) {

@@ -42,6 +42,12 @@ class BandedMatrix {
   }
 
   const Matrix& matrix() const { return a_; }
+  /// Largest |i - j| of its entries; -1 where it is no narrow band.
+  Eigen::Index width() const { return width_; }
+  /// Entries (i, i - k) of the k-th diagonal below the main one; k at most the width.
+  auto below(Eigen::Index k) const {
+    return diagonals_.col(width_ - k).head(diagonals_.rows() - k);
+  }
 
   /// to += A x
   void add_product(const Vector& x, Vector& to) const {

@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <type_traits>
 
 #include "clackers/numerics/banded.hpp"
@@ -18,6 +20,7 @@ class SpdSolver {
   static_assert(Dof == 1 || Dof == 2 || Dof == Eigen::Dynamic);
 
  public:
+  using Index = Eigen::Index;
   using Matrix = Eigen::Matrix<double, Dof, Dof>;
 
   /// Takes A in; false, and nothing to solve with, unless A is positive definite and finite.
@@ -34,11 +37,40 @@ class SpdSolver {
       return a(0, 0) > 0.0 && determinant > 0.0 && std::isfinite(determinant);
     } else {
       width_ = half_bandwidth(a);
-      if (is_banded(a.rows(), width_)) return factorize_band(a);
+      if (is_banded(a.rows(), width_)) {
+        band_.setZero(width_ + 1, a.rows());
+        for (Index k = 0; k <= width_; ++k) below(k) = a.diagonal(-k);
+        return factorize_band();
+      }
       width_ = -1;
       solver_.compute(a);
       return solver_.info() == Eigen::Success && solver_.matrixLLT().diagonal().allFinite();
     }
+  }
+
+  /// A matrix and its factor in a sum.
+  struct Term {
+    double factor;
+    const BandedMatrix<Dof>& matrix;
+  };
+  /// The same of a sum: within the band alone where all of its matrices are narrow ones, else `whole`
+  /// becomes it.
+  bool compute(std::initializer_list<Term> sum, Matrix& whole) {
+    if constexpr (Dof == Eigen::Dynamic) {
+      const auto is_band = [](const Term& term) { return term.matrix.width() >= 0; };
+      if (std::ranges::all_of(sum, is_band)) {
+        width_ = 0;
+        for (const auto& term : sum) width_ = std::max(width_, term.matrix.width());
+        band_.setZero(width_ + 1, whole.rows());
+        for (const auto& term : sum)
+          for (Index k = 0; k <= term.matrix.width(); ++k)
+            below(k) += term.factor * term.matrix.below(k);
+        return factorize_band();
+      }
+    }
+    whole.setZero();
+    for (const auto& term : sum) whole += term.factor * term.matrix.matrix();
+    return compute(whole);
   }
 
   /// x becomes A^-1 x; x may have several columns.
@@ -51,15 +83,13 @@ class SpdSolver {
   }
 
  private:
-  using Index = Eigen::Index;
+  auto below(Index k) { return band_.row(k).tail(band_.cols() - k).transpose(); }
 
-  // band_(k, i) = L(i, i - k), and 1/L(i, i) for k = 0.
-  bool factorize_band(const Matrix& a) {
-    const Index n = a.rows();
-    band_.setZero(width_ + 1, n);
-    for (Index i = 0; i < n; ++i)
+  // band_(k, i) = A(i, i - k) becomes L(i, i - k), and 1/L(i, i) for k = 0.
+  bool factorize_band() {
+    for (Index i = 0; i < band_.cols(); ++i)
       for (Index j = std::max(i - width_, Index(0)); j <= i; ++j) {
-        double sum = a(i, j);
+        double sum = band_(i - j, i);
         for (Index k = std::max(i - width_, Index(0)); k < j; ++k)
           sum -= band_(i - k, i) * band_(j - k, j);
         if (j < i) {

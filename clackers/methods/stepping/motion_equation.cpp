@@ -73,9 +73,9 @@ const typename MotionEquation<Dof>::Solver& MotionEquation<Dof>::factorize(const
   assert(used_ < most_factors);
   auto& factors = factors_[used_++];
   factors.weights = w;
-  matrix_ = w.a * s_.mass + w.v * s_.damping + w.u * s_.stiffness;
   ++tally_.factorizations;
-  if (!factors.solver.compute(matrix_)) fail("not-positive-definite");
+  if (!factors.solver.compute({{w.a, mass_matrix_}, {w.v, damping_}, {w.u, stiffness_}}, matrix_))
+    fail("not-positive-definite");
   return factors.solver;
 }
 
