@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "clackers/base/check.hpp"
+#include "clackers/base/error.hpp"
 #include "clackers/exact/flights/piecewise_motion.hpp"
 
 namespace clackers::cases {
@@ -52,7 +52,10 @@ void use_mesh(Case& test_case, const Values& value, const exact::MeshedBars& mes
 
 void use_mesh(Case& test_case, const Values& value, exact::BarMesh made, double most_exact) {
   const auto& who = test_case.entry->name;
-  if (!test_case.is_mesh_only) require_within(who, "elements", value("elements"), 1.0, most_exact);
+  if (!test_case.is_mesh_only && !(value("elements") <= most_exact))
+    refuse(who, "elements", value("elements"),
+           fmt::format("2 <= elements <= {}, of which the exact motion is known", most_exact),
+           "Finer meshes: verify --path, against the body itself.");
   test_case.most_exact_elements = most_exact;
   test_case.problem = std::move(made.problem);
   test_case.mesh = std::move(made.mesh);
