@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/base/codes.hpp"
 #include "clackers/base/number.hpp"
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 #include "clackers/judge/convergence/judge.hpp"
@@ -99,7 +100,8 @@ NextPlan next_plan(const record::Subject& subject, const measure::Ladder& ladder
   const auto& finest = ladder.back();
   if (!std::ranges::all_of(finest.runs, &measure::RunScore::finished))
     return {{}, record::RefinementEnd::run_failed};
-  if (has_weak_envelope(subject) && 2 * plan.samples_per_level <= most_samples_per_level)
+  if (has_weak_envelope(subject) && subject.assessment.reason != Code("too-few-levels").name() &&
+      2 * plan.samples_per_level <= most_samples_per_level)
     return {record::RefinementPlan{plan.coarsest, plan.levels, 2 * plan.samples_per_level}};
   if (!is_at_floor(finest)) return with_finer(plan, 1, problem.end);
   const double coarser = 2.0 * plan.coarsest;

@@ -135,6 +135,8 @@ TEST(NextPlan, TakesMoreStepsALevelWhereTheEnvelopeIsUncertain) {
   weak.assessment.verdict = Verdict::agrees;
   EXPECT_EQ(next(weak, plan), (Steps{0.05, 8, 16})) << "weak evidence";
   EXPECT_EQ(next(weak, {0.05, 8, 32}), (Steps{0.05, 9, 32}));
+  weak.assessment.reason = "too-few-levels";
+  EXPECT_EQ(next(weak, plan), (Steps{0.05, 9, 8})) << "large errors";
   auto sure = with_envelope(plan, 0.2);
   EXPECT_EQ(next(sure, plan), (Steps{0.05, 9, 8}));
   sure.assessment.verdict = Verdict::agrees;

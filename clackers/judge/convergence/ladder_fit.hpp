@@ -71,8 +71,8 @@ inline constexpr double settling_share = 0.5;
 ///    one that grows: divergent; one below the claim: reduced; any other: proper, its own order
 ///  9 at least three finest clear levels flat: stagnating; proper above a rough floor
 /// 10 the claimed line up to two levels before the floor, which rounding bends: proper
-/// 11 a h^p + c follows the errors: proper or reduced with a floor; stagnating where a smooth floor
-///    rules two octaves
+/// 11 a h^p + c follows the errors, of the finest levels better than a h^p + b h: proper or reduced with
+///    a floor; stagnating where a smooth floor rules two octaves
 /// 12 a line of three octaves, then a rough floor: proper or reduced with a floor
 /// 13 raw points that zigzag from step to step: the envelope decides
 /// 14 errors that grow over four levels without settling: divergent
@@ -83,7 +83,8 @@ inline constexpr double settling_share = 0.5;
 /// 19 anything else: undecided: larger-than-motion, too-few-levels if the last rate is the claimed
 ///    one, one-sample-a-level, or no-convergence-yet
 ///
-/// The envelope decides: undecided for one run a level; stagnating where the raw points of the last
+/// The envelope decides: undecided for one run a level; proper where the last three octaves are a line of
+/// the claimed order; stagnating where the raw points of the last
 /// four levels are flat; irregular where the line of the largest error of each level (leading levels
 /// with errors as large as the motion left out) falls by more than its own spread; divergent where it
 /// rises by as much; else undecided (more-samples).
