@@ -15,6 +15,9 @@
 namespace clackers::judge {
 namespace {
 
+// Finer levels stand for themselves from this number on.
+constexpr std::ptrdiff_t least_levels = 5;
+
 LadderFit fit(const measure::Ladder& ladder, const FitContext& context, const auto& measure) {
   std::vector<ErrorLevel> errors;
   for (const auto& level : ladder) {
@@ -162,7 +165,8 @@ Verdict compare_order(const LadderFit& fit, double claimed, double tolerance) {
   const double reach = fit.on_envelope ? fit.spread + tolerance * claimed : fit.spread;
   if (off > tolerance * claimed) return off > reach ? Verdict::disagrees : Verdict::undecided;
   const bool few = fit.last_level - fit.first_level + 1 < enough_octaves;
-  const double most = !fit.on_envelope ? line_spread : few ? envelope_spread : wide_envelope_spread;
+  const bool of_envelope = fit.on_envelope || tolerance == envelope_order_tolerance;
+  const double most = !of_envelope ? line_spread : few ? envelope_spread : wide_envelope_spread;
   return fit.spread > most * claimed ? Verdict::undecided : Verdict::agrees;
 }
 
@@ -171,6 +175,32 @@ Verdict compare_order(const LadderFit& fit, double claimed, double tolerance) {
 bool is_above_floor(const LadderFit& fit, const JudgeContext& facts) {
   constexpr double enough_steps = 128.0;
   return facts.contact_time > 0.0 && facts.contact_time < enough_steps * fit.smallest_step;
+}
+
+// The first level behind all those at which most runs miss impacts or have some too many while errors are
+// not far below the motion; 0 where the finest one is such a level.
+int first_counted(const measure::Ladder& ladder) {
+  constexpr double large = 0.01;
+  const auto is_of_other_impacts = [](const measure::ScoreLevel& level) {
+    return 2 * std::ranges::count_if(level.runs,
+                                     [](const measure::RunScore& run) {
+                                       return miscounts(run) && run.u_error > large;
+                                     }) >
+           std::ssize(level.runs);
+  };
+  const auto last = std::find_if(ladder.rbegin(), ladder.rend(), is_of_other_impacts);
+  return last == ladder.rbegin() ? 0 : int(ladder.rend() - last);
+}
+
+// The fit of the levels from `first` on, in the place of that of all.
+LadderFit from_level(const measure::Ladder& ladder, int first, const FitContext& context,
+                     const LadderFit& of_all) {
+  auto fine = fit({ladder.begin() + first, ladder.end()}, context, displacement_error);
+  fine.first_level += first;
+  fine.last_level += first;
+  fine.steps = of_all.steps;
+  fine.errors = of_all.errors;
+  return fine;
 }
 
 // Whether the order of a line is that of its coarse range: errors not far below the motion itself,
@@ -333,20 +363,18 @@ Assessment judge(const measure::Ladder& ladder, const Claim& claim, const JudgeC
   context.saturation = std::numeric_limits<double>::infinity();
   found.impact_time = fit(ladder, context, impact_time_error);
 
+  if (const int first = first_counted(ladder);
+      first > found.displacement.first_level && shows_a_line(found.displacement) &&
+      compare(found.displacement, claim, facts) != Verdict::agrees)
+    found.displacement = from_level(ladder, first, of_displacement, found.displacement);
   // Coarse steps whose errors fall faster hide an envelope of lower order, and those whose errors are as
   // large as impacts make them one of higher order, where the finer half shows it.
-  constexpr std::ptrdiff_t least_levels = 5;
   const auto half = std::max(least_levels, std::ssize(ladder) / 2);
   const auto of_all = compare(found.displacement, claim, facts);
   if (claim.behaviour == Behaviour::irregular && found.displacement.on_envelope &&
       half < std::ssize(ladder) && of_all != Verdict::agrees) {
-    const measure::Ladder finer(ladder.end() - half, ladder.end());
-    auto fine = fit(finer, of_displacement, displacement_error);
-    const int coarser = int(std::ssize(ladder) - half);
-    fine.first_level += coarser;
-    fine.last_level += coarser;
-    fine.steps = found.displacement.steps;
-    fine.errors = found.displacement.errors;
+    auto fine =
+        from_level(ladder, int(std::ssize(ladder) - half), of_displacement, found.displacement);
     const auto of_fine = compare(fine, claim, facts);
     const double whole = found.displacement.order;
     const bool is_lower = whole > claim.order;

@@ -426,6 +426,40 @@ TEST(Judge, AnEnvelopeIsThatOfTheFinerHalfWhereCoarseErrorsAreLarge) {
   EXPECT_EQ(found(14, 2.0, 0.5).verdict, Verdict::disagrees);
 }
 
+TEST(Judge, ALineOfAWideIntervalDecidesForAnEnvelope) {
+  Scatter scatter(1.3, 3);
+  const auto error = [&](double h) { return 20.0 * h / (1.0 + 24.0 * h) * scatter(); };
+  const auto found = judge(scores(error, {.coarsest = 0.14}), rough);
+  EXPECT_FALSE(found.displacement.on_envelope);
+  EXPECT_GT(found.displacement.spread, line_spread);
+  EXPECT_EQ(found.verdict, Verdict::agrees);
+}
+
+// Levels at which most runs miss impacts tell nothing of the order behind them.
+TEST(Judge, AnEnvelopeBeginsBehindTheLevelsThatMiscountImpacts) {
+  const auto found = [](std::size_t miscounting, std::size_t runs, double size = 1.0) {
+    Scatter scatter(8.0, 5);
+    const auto error = [&](double h) {
+      const double small = 20.0 * h / scatter();
+      return size * small / (1.0 + small / 0.2);
+    };
+    auto ladder = scores(error, {.levels = 7});
+    for (std::size_t i = 0; i < miscounting; ++i)
+      for (std::size_t k = 0; k < runs; ++k)
+        ladder[i].runs[k].impacts = measure::ImpactScore{6, 7, 6, 0, 1};
+    return judge(ladder, rough);
+  };
+  EXPECT_EQ(found(0, 8).verdict, Verdict::undecided);
+  const auto behind = found(3, 8);
+  EXPECT_EQ(behind.verdict, Verdict::agrees);
+  EXPECT_EQ(behind.displacement.first_level, 3);
+  EXPECT_EQ(behind.displacement.errors.size(), 7u);
+  EXPECT_EQ(found(3, 4).verdict, Verdict::undecided) << "half of the runs";
+  EXPECT_EQ(found(3, 8, 0.02).verdict, Verdict::undecided) << "small errors";
+  EXPECT_EQ(found(4, 8).verdict, Verdict::undecided);
+  EXPECT_EQ(found(4, 8).reason, "too-few-levels");
+}
+
 TEST(Judge, AnOpenEnvelopeOfLargeErrorsAsksForFinerLevels) {
   const auto reason = [](double scale) {
     Scatter wild(30.0, 4);
