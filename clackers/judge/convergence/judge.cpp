@@ -177,12 +177,12 @@ bool is_above_floor(const LadderFit& fit, const JudgeContext& facts) {
   return facts.contact_time > 0.0 && facts.contact_time < enough_steps * fit.smallest_step;
 }
 
-// The first level behind all those at which most runs miss impacts or have some too many while errors are
-// not far below the motion; 0 where the finest one is such a level.
+// The first level behind all those at which more than a quarter of the runs miss impacts or have some too
+// many while errors are not far below the motion; 0 where the finest one is such a level.
 int first_counted(const measure::Ladder& ladder) {
   constexpr double large = 0.01;
   const auto is_of_other_impacts = [](const measure::ScoreLevel& level) {
-    return 2 * std::ranges::count_if(level.runs,
+    return 4 * std::ranges::count_if(level.runs,
                                      [](const measure::RunScore& run) {
                                        return miscounts(run) && run.u_error > large;
                                      }) >

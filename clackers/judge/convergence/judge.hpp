@@ -98,8 +98,9 @@ struct JudgeContext {
 ///     reduced                       a straight line of the very order that is claimed as reduced
 ///     what fit_ladder found         otherwise
 ///
-/// Where a line or an envelope does not agree, it is that of the levels behind those at which most runs
-/// miscount impacts with errors above a hundredth of the motion, but for a finest level of that kind.
+/// Where a line or an envelope does not agree, it is that of the levels behind those at which more than
+/// a quarter of the runs miscount impacts with errors above a hundredth of the motion, but for a finest
+/// level of that kind.
 /// Where an envelope that is claimed does not agree, that of the finer half of the levels counts: if it no
 /// longer falls too fast, or if its whole interval lies above the slope of all levels and it agrees.
 ///
