@@ -15,9 +15,6 @@
 namespace clackers::judge {
 namespace {
 
-// Finer levels stand for themselves from this number on.
-constexpr std::ptrdiff_t least_levels = 5;
-
 LadderFit fit(const measure::Ladder& ladder, const FitContext& context, const auto& measure) {
   std::vector<ErrorLevel> errors;
   for (const auto& level : ladder) {
@@ -99,8 +96,7 @@ bool is_growing_rounding(const LadderFit& fit, const measure::Ladder& ladder) {
 // Whether errors not far below the motion fall by no order that a method has, while most runs of the finest
 // level still miss impacts or have some too many.
 bool is_of_other_impacts(const LadderFit& fit, const measure::Ladder& ladder) {
-  constexpr double large = 0.01;
-  if (!shows_a_line(fit) || fit.order >= lowest_real_order || fit.errors.back() <= large)
+  if (!shows_a_line(fit) || fit.order >= lowest_real_order || fit.errors.back() <= large_error)
     return false;
   const auto& runs = ladder.back().runs;
   return 2 * std::ranges::count_if(runs, miscounts) > std::ssize(runs);
@@ -180,11 +176,10 @@ bool is_above_floor(const LadderFit& fit, const JudgeContext& facts) {
 // The first level behind all those at which more than a quarter of the runs miss impacts or have some too
 // many while errors are not far below the motion; 0 where the finest one is such a level.
 int first_counted(const measure::Ladder& ladder) {
-  constexpr double large = 0.01;
   const auto is_of_other_impacts = [](const measure::ScoreLevel& level) {
     return 4 * std::ranges::count_if(level.runs,
                                      [](const measure::RunScore& run) {
-                                       return miscounts(run) && run.u_error > large;
+                                       return miscounts(run) && run.u_error > large_error;
                                      }) >
            std::ssize(level.runs);
   };
@@ -308,11 +303,10 @@ void decide(Assessment& found, const Claim& claim, const measure::Ladder& ladder
       facts.finest && !claim.is_made() && ladder.size() == 1 && ladder.front().runs.size() == 1;
   if (!one_history) found.reason = fit.reason;
   const bool is_open = found.verdict == Verdict::undecided;
-  // Of errors that are not far below the motion finer levels tell more.
-  constexpr double large = 0.01;
+  // Of large errors finer levels show more.
   if (is_open && fit.on_envelope)
     found.reason =
-        (fit.errors.back() > large ? Code("too-few-levels") : Code("more-samples")).name();
+        (fit.errors.back() > large_error ? Code("too-few-levels") : Code("more-samples")).name();
   if (is_open && claim.behaviour == Behaviour::stagnating && shows_a_line(fit) &&
       is_above_floor(fit, facts))
     found.reason = Code("contact-not-resolved").name();
@@ -369,6 +363,7 @@ Assessment judge(const measure::Ladder& ladder, const Claim& claim, const JudgeC
     found.displacement = from_level(ladder, first, of_displacement, found.displacement);
   // Coarse steps whose errors fall faster hide an envelope of lower order, and those whose errors are as
   // large as impacts make them one of higher order, where the finer half shows it.
+  constexpr std::ptrdiff_t least_levels = 5;
   const auto half = std::max(least_levels, std::ssize(ladder) / 2);
   const auto of_all = compare(found.displacement, claim, facts);
   if (claim.behaviour == Behaviour::irregular && found.displacement.on_envelope &&

@@ -39,6 +39,9 @@ inline constexpr double wide_envelope_spread = 0.75;
 /// is of another motion.
 inline constexpr double far_start = 0.1;
 
+/// Errors above this share of the motion win and lose impacts.
+inline constexpr double large_error = 0.01;
+
 /// What is known of a history beside its score.
 struct HistoryFacts {
   long long rows = 0;
@@ -88,8 +91,8 @@ struct JudgeContext {
 ///                                   any that is as large as the motion
 ///     undecided [numerical-damping] undecided with falling errors, and most of those runs end with
 ///                                   less than half of it
-///     undecided [too-few-levels]    errors above a hundredth of the motion fall by no order that a
-///                                   method has, and most runs of the finest level miscount impacts
+///     undecided [too-few-levels]    errors above `large_error` fall by no order that a method
+///                                   has, and most runs of the finest level miscount impacts
 ///     stagnating [printed-digits]   the finest history's error is within `rounding_slack` of what
 ///                                   printing makes, and the fit is exact, a floor or has too few
 ///                                   levels
@@ -99,10 +102,9 @@ struct JudgeContext {
 ///     what fit_ladder found         otherwise
 ///
 /// Where a line or an envelope does not agree, it is that of the levels behind those at which more than
-/// a quarter of the runs miscount impacts with errors above a hundredth of the motion, but for a finest
-/// level of that kind.
-/// Where an envelope that is claimed does not agree, that of the finer half of the levels counts: if it no
-/// longer falls too fast, or if its whole interval lies above the slope of all levels and it agrees.
+/// a quarter of the runs miscount impacts with errors above `large_error`, but for a finest level of that
+/// kind. Where an envelope that is claimed does not agree, that of the finer half of the levels counts: if
+/// it no longer falls too fast, or if its whole interval is above the slope of all levels and it agrees.
 ///
 /// Verdict on the claim: `not claimed` without a claim; `undecided` where the behaviour is, where an
 /// exact motion met a claim of some order (nothing above rounding to measure it on), where printed
@@ -114,9 +116,9 @@ struct JudgeContext {
 /// disagrees as well, unless velocities are as claimed, or an irregular order is claimed and no impact
 /// happens. Impacts missed or extra on the two finest levels disagree whatever the errors say, unless
 /// the claim is a floor and their number is right (then they came too late to be matched) or, at the very
-/// floor that is claimed, above a hundredth of the motion, off by at most a half; where an envelope is claimed, only if most
-/// runs of both levels miscount. A claim to diverge says nothing of
-/// impacts. A claim to converge disagrees where the files converge to another limit.
+/// floor that is claimed, above `large_error`, off by at most a half; where an envelope is claimed, only
+/// if most runs of both levels miscount. A claim to diverge says nothing of impacts. A claim to converge
+/// disagrees where the files converge to another limit.
 ///
 /// A tolerance has a verdict of its own, `undecided` where printing makes more than the difference
 /// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of
@@ -134,11 +136,11 @@ inline constexpr double early_end = 0.9;
 /// The last run of the finest level; runs come coarsest first.
 const measure::RunScore& finest_run(const measure::Ladder& ladder);
 
-/// What the verdict rests on beside the fits: `of_behaviour` is the verdict of the displacement's
-/// behaviour alone. Empty for no levels.
 /// Whether a run ended and missed impacts or had some too many.
 bool miscounts(const measure::RunScore& run);
 
+/// What the verdict rests on beside the fits: `of_behaviour` is the verdict of the displacement's
+/// behaviour alone. Empty for no levels.
 std::vector<Evidence> evidence_of(const Assessment& fits, Verdict of_behaviour,
                                   const measure::Ladder& ladder, const Claim& claim,
                                   const JudgeContext& facts);

@@ -24,18 +24,17 @@ Evidence miscount(const measure::RunScore& run) {
 // decide nothing, steps may be too long to find them: then only if every run of both levels misses as
 // many and has as many too many, as no refinement will mend. Where errors may scatter as claimed, gentle
 // impacts are off by more than their match may be at some steps: then only if most runs miscount.
-// A claimed floor may make impacts late; the very one that is claimed, where it is not small, half as
+// A claimed floor may make impacts late; the very one that is claimed, where it is large, half as
 // many more or fewer. A claim to diverge says nothing of impacts, nor does a method without a law of them.
 std::optional<Evidence> miscounted(const measure::Ladder& ladder, const LadderFit& fit,
                                    const Claim& claim, Verdict of_behaviour) {
   if (claim.behaviour == Behaviour::divergent || claim.reason == Code("no-impact-law").name())
     return {};
-  constexpr double small = 0.01;
   const auto is_of_floor = [&](const measure::ImpactScore& impacts) {
     const auto more = std::abs(impacts.found - impacts.expected);
     return claim.behaviour == Behaviour::stagnating &&
-           (more == 0 ||
-            (fit.reason == claim.reason && fit.floor > small && 2 * more <= impacts.expected));
+           (more == 0 || (fit.reason == claim.reason && fit.floor > large_error &&
+                          2 * more <= impacts.expected));
   };
   const measure::RunScore* first = nullptr;
   bool all_alike = true;
