@@ -133,22 +133,4 @@ Vector ForcedModes::local_errors(const Vector& z, double t, double s) const {
   return error;
 }
 
-// T covariance T', where T has four diagonal blocks.
-Matrix ForcedModes::carried(const Matrix& covariance, double s) const {
-  const Index n = dof();
-  Vector unit = Vector::Zero(2 * n);
-  unit.head(n).setOnes();
-  const Vector from_value = advanced(unit, s, 0.0),
-               from_rate = advanced(Vector::Ones(2 * n) - unit, s, 0.0);
-  const auto mapped = [&](const Matrix& x) {
-    Matrix y(2 * n, 2 * n);
-    y.topRows(n) = from_value.head(n).asDiagonal() * x.topRows(n);
-    y.topRows(n) += from_rate.head(n).asDiagonal() * x.bottomRows(n);
-    y.bottomRows(n) = from_value.tail(n).asDiagonal() * x.topRows(n);
-    y.bottomRows(n) += from_rate.tail(n).asDiagonal() * x.bottomRows(n);
-    return y;
-  };
-  return mapped(mapped(covariance).transpose());
-}
-
 }  // namespace clackers::exact

@@ -104,6 +104,12 @@ class ForcedModes {
   /// z of these displacements and velocities with what the constraints exclude removed from them, the
   /// momenta along the constrained motion as they are.
   Matrix change(const Matrix& u, const Matrix& v) const;
+  /// y of mode j as a row times the state z of other modes.
+  Vector displacement_of_mode(Eigen::Index j, const ForcedModes& other) const {
+    const auto n = inverse_.cols() / 2;
+    return other.derivative(0).transpose() * inverse_.row(j).head(n).transpose() +
+           other.derivative(1).transpose() * inverse_.row(j).tail(n).transpose();
+  }
   /// z of the steady response.
   Vector steady(double t) const;
   /// z of the motion without the steady response s seconds later; `push` 0 without constant forces on
@@ -120,8 +126,6 @@ class ForcedModes {
   double bound(const Eigen::Ref<const Vector>& row, const Sizes& sizes) const;
   /// What rounding does to z in s seconds that begin with the free state z at t.
   Vector local_errors(const Vector& z, double t, double s) const;
-  /// The covariance of errors of z, s seconds later.
-  Matrix carried(const Matrix& covariance, double s) const;
 
  private:
   void add_force(const Eigen::VectorXcd& applied, double frequency, const Matrix& inverse_mass,

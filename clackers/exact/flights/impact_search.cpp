@@ -27,8 +27,11 @@ double PiecewiseMotion::Builder::error_of(std::size_t i, double s) const {
   const auto& seen = watched(i);
   const double rounding = modes().rounding(seen, modes().sizes(flight().free, s), flight().t + s);
   if (!m_.has_bounds_) return rounding;
-  const auto row = seen.by_state.col(0);
-  return factor() * std::sqrt(row.dot(m_.covariance_after(flight(), s) * row)) + rounding;
+  const VectorXd row = seen.by_state.col(0);
+  auto errors = flight().errors;
+  errors.carry(modes(), s);
+  return errors.bounds(modes(), row.transpose())[0] +
+         row.cwiseAbs().dot(modes().local_errors(flight().free, flight().t, s)) + rounding;
 }
 
 auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
@@ -102,13 +105,12 @@ std::vector<double> PiecewiseMotion::Builder::levels(double s) const {
   for (std::size_t i = 0; i < springs(); ++i)
     level.push_back(certain_gap * modes().rounding(watched(i), size, flight().t + s));
   if (!m_.has_bounds_) return level;
-  const auto carried = modes().sizes(flight().covariance.diagonal().cwiseSqrt(), s, 0.0);
-  const VectorXd local = modes().local_errors(flight().free, flight().t, s);
-  for (std::size_t i = 0; i < springs(); ++i) {
-    const auto row = watched(i).by_state.col(0);
-    level[i] +=
-        certain_gap * factor() * (modes().bound(row, carried) + row.cwiseProduct(local).norm());
-  }
+  MatrixXd rows(springs(), 2 * modes().dof());
+  for (std::size_t i = 0; i < springs(); ++i)
+    rows.row(Index(i)) = watched(i).by_state.col(0).transpose();
+  const VectorXd errors = flight().errors.bounds_until(modes(), rows, s) +
+                          rows.cwiseAbs() * modes().local_errors(flight().free, flight().t, s);
+  for (std::size_t i = 0; i < springs(); ++i) level[i] += certain_gap * errors[Index(i)];
   return level;
 }
 
@@ -146,8 +148,7 @@ std::optional<double> PiecewiseMotion::Builder::climb(std::size_t i, int order, 
   for (int step = 0; doubt > 0.0 && step < most_steps; ++step) {
     auto gap = watch(i, s);
     if (gap.value > level) {
-      const State now{flight().regime, flight().t, m_.total(flight(), flight().t),
-                      flight().covariance};
+      const State now{flight().regime, flight().t, m_.total(flight(), flight().t), flight().errors};
       const double next_error = deviation(now, row(i).seen.by_state.col(order + 1));
       return next_error * s <= 0.8 * doubt ? std::optional(s) : std::nullopt;
     }

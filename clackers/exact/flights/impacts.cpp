@@ -70,15 +70,15 @@ double PiecewiseMotion::Builder::deviation(const State& state, const VectorXd& r
   for (const auto& force : m_.regimes_[state.regime].forces())
     size += (1.0 + force.frequency * state.t) * row.cwiseAbs().dot(force.steady.cwiseAbs());
   const double rounding = epsilon * double(m_.dof() + 4) * size;
-  return m_.has_bounds_ ? factor() * std::sqrt(row.dot(state.covariance * row)) + rounding
-                        : rounding;
+  if (!m_.has_bounds_) return rounding;
+  return state.errors.bounds(m_.regimes_[state.regime], row.transpose())[0] + rounding;
 }
 
 void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
   const double s = closings.front().s, t = flight().t + s;
   const auto now = flight().regime, base = with_held(now, held(now), false);
   const auto& rows = rows_[base];
-  const State before{now, t, m_.total(flight(), t), m_.covariance_after(flight(), s)};
+  const State before{now, t, m_.total(flight(), t), m_.errors_after(flight(), s)};
   const VectorXd a_before = modes().acceleration(before.z, t);
   State state = seen_in(base, before);
   auto closed = held(now);
@@ -101,13 +101,11 @@ void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
   for (const auto i : closed) after.z += rows[i].impulse * impulses[Index(i)];
   const auto carry = [&](const VectorXd& more) {
     if (!m_.has_bounds_) return;
-    auto [left, right, time_error] = saltation(base, closings, impulses, state.z, a_before, more);
-    time_error *= 4.0 * epsilon * std::max(t, s);
-    // Side after side, so that rounding is that of what is left.
-    after.covariance = state.covariance + left * (right.transpose() * state.covariance);
-    after.covariance += (after.covariance * right).eval() * left.transpose();
-    after.covariance *= std::pow(1.0 + 4.0 * nonlinear, 2);
-    after.covariance.diagonal() += time_error.cwiseAbs2();
+    auto impact = saltation(base, closings, impulses, state.z, a_before, more);
+    impact.rounding = 4.0 * epsilon * std::max(t, s);
+    after.errors = state.errors;
+    after.errors.pass(m_.regimes_[base], impact);
+    after.errors.enlarge(1.0 + 4.0 * nonlinear);
   };
   carry(shared);
   for (const auto& closing : closings) {
@@ -230,7 +228,7 @@ VectorXd PiecewiseMotion::Builder::solve(std::size_t regime, const VectorXd& q,
 auto PiecewiseMotion::Builder::saltation(std::size_t regime, const std::vector<Closing>& closings,
                                          const VectorXd& impulses, const VectorXd& z,
                                          const VectorXd& a_before, VectorXd shared) const
-    -> Saltation {
+    -> FlightErrors::Impact {
   const auto& rows = rows_[regime];
   std::vector<std::size_t> active;
   for (std::size_t i = 0; i < springs(); ++i)
@@ -247,24 +245,27 @@ auto PiecewiseMotion::Builder::saltation(std::size_t regime, const std::vector<C
   const auto closes = [&](std::size_t i) {
     return std::ranges::find(closings, i, &Closing::contact) != closings.end();
   };
+  FlightErrors::Impact found;
   law = numerics::inverse(law);
   for (Index c = 0; c < count; ++c)
     if (const auto i = active[std::size_t(c)]; closes(i))
       law.col(c) *= 1.0 + problem_.contacts[i].restitution;
   rates = law * rates;  // -impulses by z
   pressed = law * pressed;
-  Saltation found{MatrixXd::Zero(z.size(), 2 * count + 1), MatrixXd::Zero(z.size(), 2 * count + 1),
-                  VectorXd::Zero(z.size())};
-  Index column = count;
+  found.impulses.resize(z.size(), count);
+  found.jumps.resize(z.size(), 0);
+  found.gaps.resize(z.size(), 0);
+  found.rates = rates.transpose();
   const auto add = [&](std::size_t contact, const VectorXd& jump) {
-    found.left.col(column) = jump;
-    found.right.col(column++) = rows[contact].gap() / rows[contact].rate().dot(z);
-    found.time_error += jump.cwiseAbs();
+    const Index column = found.jumps.cols();
+    for (auto* columns : {&found.jumps, &found.gaps})
+      columns->conservativeResize(Eigen::NoChange, column + 1);
+    found.jumps.col(column) = jump;
+    found.gaps.col(column) = rows[contact].gap() / rows[contact].rate().dot(z);
   };
   for (Index c = 0; c < count; ++c) {
     const auto i = active[std::size_t(c)];
-    found.left.col(c) = -rows[i].impulse;
-    found.right.col(c) = rates.row(c).transpose();
+    found.impulses.col(c) = rows[i].impulse;
     const VectorXd jump = impulses[Index(i)] * m_.regimes_[regime].rate(rows[i].impulse) +
                           pressed[c] * rows[i].impulse;
     if (closes(i))

@@ -117,11 +117,11 @@ bool PiecewiseMotion::Builder::sharpen() {
   sharp_ = now;
   switching_.reset();
   State state{flight().regime, flight().t, modes().state(exact->first, exact->second),
-              MatrixXd::Zero(2 * modes().dof(), 2 * modes().dof())};
+              FlightErrors(modes(), m_.end_)};
   m_.flights_.pop_back();
   opens_ = begins_;
   begin(std::move(state));
-  m_.flights_.back().covariance = m_.covariance_after(flight(), 0.0);
+  m_.flights_.back().errors = m_.errors_after(flight(), 0.0);
   return true;
 #else
   return false;
@@ -140,12 +140,13 @@ void PiecewiseMotion::Builder::start() {
                          std::sqrt(stiffnesses_[i - springs()] * contact.direction.dot(response)));
   }
   const auto n = m_.dof();
-  State state{regime(closed), problem_.start.t, {}, MatrixXd::Zero(2 * n, 2 * n)};
+  State state{regime(closed), problem_.start.t, {}, {}};
   const auto& modes = m_.regimes_[state.regime];
+  state.errors = FlightErrors(modes, m_.end_);
   state.z = modes.state(problem_.start.u, problem_.start.v);
   begin(state);
   // The start itself is given; what the change to modes rounds is that of a flight of no length.
-  m_.flights_.back().covariance = state.covariance = m_.covariance_after(flight(), 0.0);
+  m_.flights_.back().errors = state.errors = m_.errors_after(flight(), 0.0);
   std::vector<std::size_t> touching;
   for (std::size_t i = 0; i < springs(); ++i) {
     const auto& contact = contacts_[i];
@@ -159,19 +160,20 @@ void PiecewiseMotion::Builder::start() {
   }
   const auto next = resting(state, touching);
   m_.flights_.clear();
+  auto errors = seen_in(next, state).errors;
   begin({next, state.t, m_.regimes_[next].state(problem_.start.u, problem_.start.v),
-         mapped(change(state.regime, next), state.covariance)});
+         std::move(errors)});
 }
 
 void PiecewiseMotion::Builder::begin(State state) {
-  auto& [regime, t, z, covariance, time_error] = state;
-  const double bytes = 8.0 * double(covariance.size()) * double(m_.flights_.size() + 1);
-  if (m_.flights_.size() >= most_flights_ || bytes > most_bytes)
+  auto& [regime, t, z, errors, time_error] = state;
+  bytes_ += errors.bytes();
+  if (m_.flights_.size() >= most_flights_ || bytes_ > most_bytes)
     throw InputError(
         fmt::format(
             "{}: {} impacts up to t = {:.6g} s, and {:.2g} GB for their errors; allowed: {:g} "
             "impacts and 2 GB. Impacts may accumulate there; end the run earlier.",
-            m_.who_, m_.flights_.size(), t, bytes * 1e-9, double(most_flights_)),
+            m_.who_, m_.flights_.size(), t, bytes_ * 1e-9, double(most_flights_)),
         "out-of-memory");
   for (std::size_t i = 0; i < springs(); ++i) {
     const auto now = std::ranges::find_if(
@@ -183,7 +185,7 @@ void PiecewiseMotion::Builder::begin(State state) {
       now->opens = true;
     }
   }
-  m_.flights_.push_back({t, regime, z - m_.regimes_[regime].steady(t), std::move(covariance)});
+  m_.flights_.push_back({t, regime, z - m_.regimes_[regime].steady(t), std::move(errors)});
   begins_ = std::exchange(opens_, std::vector<Begin>(springs(), Begin::open));
   for (std::size_t i = 0; i < springs(); ++i)
     if (is_held(i)) begins_[i] = Begin::open;

@@ -59,7 +59,7 @@ class PiecewiseMotion::Builder {
     std::size_t regime = 0;
     double t = 0.0;
     VectorXd z;
-    MatrixXd covariance;
+    FlightErrors errors;
     double time_error = 0.0;
   };
 
@@ -74,7 +74,6 @@ class PiecewiseMotion::Builder {
   }
   /// Contacts from here on are springs.
   std::size_t springs() const { return problem_.contacts.size(); }
-  double factor() const { return m_.factor(m_.flights_.size() - 1); }
   double delassus(std::size_t regime, std::size_t i, std::size_t j) const {
     return rows_[regime][i].rate().dot(rows_[regime][j].impulse);
   }
@@ -94,12 +93,6 @@ class PiecewiseMotion::Builder {
   Constraint constraint(const std::vector<std::size_t>& contacts) const;
   /// A spring closes or opens. Displacements, velocities and forces are continuous.
   void change_regime();
-  MatrixXd change(std::size_t from, std::size_t to) const;
-  MatrixXd mapped(const MatrixXd& map, const MatrixXd& covariance) const {
-    if (!m_.has_bounds_) return {};
-    const MatrixXd half = numerics::product_of_quarters(map, covariance);
-    return numerics::product_of_quarters(map, half.transpose());
-  }
   void start();
   void begin(State state);
   /// Begins the flight again from its state by balls, whose error is that of rounding it. False where
@@ -160,18 +153,13 @@ class PiecewiseMotion::Builder {
   bool departs() const {
     return law_.missed > 0 || law_.doubled > 0 || law_.grid > 0.0 || !law_.impulse_factor.empty();
   }
-  /// What an impact does to errors, 1 + left right', and to those of its time.
-  struct Saltation {
-    MatrixXd left, right;
-    VectorXd time_error;
-  };
-  /// R + sum over contacts of g_c n_c'/(n_c . f-): contact c, whose gap a perturbation changes
+  /// What an impact does to errors: R + sum over contacts of g_c n_c'/(n_c . f-): contact c, whose gap a perturbation changes
   /// by n_c . dx, comes that over its gap rate earlier, and g_c is its part of f+ - R f-. Of
   /// contacts that close together this holds while they stay together, or do not act on each other.
   /// `shared` is what contacts that were closed before, or are after, add to the parts.
-  Saltation saltation(std::size_t regime, const std::vector<Closing>& closings,
-                      const VectorXd& impulses, const VectorXd& z, const VectorXd& a_before,
-                      VectorXd shared) const;
+  FlightErrors::Impact saltation(std::size_t regime, const std::vector<Closing>& closings,
+                                 const VectorXd& impulses, const VectorXd& z,
+                                 const VectorXd& a_before, VectorXd shared) const;
 
   /// A bound on the error of row . z, for a state as `state`.
   double deviation(const State& state, const VectorXd& row) const;
@@ -217,6 +205,7 @@ class PiecewiseMotion::Builder {
   std::vector<Begin> begins_, opens_;  // of this flight, of the next
   std::optional<std::size_t> sharp_;   // the last flight that was begun again
   std::shared_ptr<certified::FlightsEnclosure> balls_;
+  double bytes_ = 0.0;    // of the errors of all flights
   bool is_over_ = false;  // nothing collides any more
   std::string no_rest_;   // why impacts that accumulate were not seen to end in rest
 };

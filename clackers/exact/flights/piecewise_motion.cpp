@@ -83,32 +83,13 @@ void PiecewiseMotion::sample(std::span<const double> times, Side side,
   }
 }
 
-MatrixXd PiecewiseMotion::covariance_after(const Flight& flight, double s) const {
+FlightErrors PiecewiseMotion::errors_after(const Flight& flight, double s) const {
   if (!has_bounds_) return {};
-  MatrixXd both = modes(flight).carried(flight.covariance, s);
-  both.diagonal() += modes(flight).local_errors(flight.free, flight.t, s).cwiseAbs2();
-  return both;
+  auto errors = flight.errors;
+  errors.carry(modes(flight), s);
+  errors.add(modes(flight), modes(flight).local_errors(flight.free, flight.t, s));
+  return errors;
 }
-
-// With K flights of 2 n errors d_k each, twice a flight (its end, its impact), Cauchy and Schwarz
-// give |row . sum F_k d_k| <= sqrt(4 n K) sqrt(sum row F_k D_k D_k' F_k' row').
-double PiecewiseMotion::factor(std::size_t flight) const {
-  return std::sqrt(4.0 * double(dof()) * double(flight + 1));
-}
-
-namespace {
-
-// Square roots of row . (covariance row) of each row.
-VectorXd deviations(const MatrixXd& rows, const MatrixXd& covariance) {
-  return numerics::product_of_halves(rows, covariance)
-      .cwiseProduct(rows)
-      .rowwise()
-      .sum()
-      .cwiseMax(0.0)
-      .cwiseSqrt();
-}
-
-}  // namespace
 
 Kinematics PiecewiseMotion::error_bound(double t) const {
   const Index n = dof();
@@ -119,7 +100,7 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
   for (auto k = flight_at(t, Side::left); k <= last; ++k) {
     const auto& flight = flights_[k];
     const auto& modes = this->modes(flight);
-    const MatrixXd covariance = covariance_after(flight, t - flight.t);
+    const auto errors = errors_after(flight, t - flight.t);
     // What is summed, for the rounding of the sum.
     const auto size = modes.sizes(flight.free, t - flight.t);
     VectorXd whole(2 * modes.dof()), load = VectorXd::Zero(n);
@@ -132,7 +113,7 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
       const MatrixXd& rows = modes.derivative(order);
       const VectorXd rounding =
           epsilon * double(n + 4) * (modes.derivative_size(order) * whole + more);
-      to = to.cwiseMax(factor(k) * deviations(rows, covariance) + rounding);
+      to = to.cwiseMax(errors.bounds(modes, rows) + rounding);
     };
     raise(bound.u, 0, modes.offset().cwiseAbs());
     raise(bound.v, 1, VectorXd::Zero(n));

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "clackers/exact/flights/flight_errors.hpp"
 #include "clackers/exact/flights/forced_modes.hpp"
 #include "clackers/model/motion.hpp"
 
@@ -112,7 +113,7 @@ class PiecewiseMotion : public model::Motion {
     double t = 0.0;
     std::size_t regime = 0;
     Vector free;                      // z without the steady response
-    Eigen::MatrixXd covariance;       // sum of D D' of the errors of z so far, at t; with bounds
+    FlightErrors errors;              // of z, at t; with bounds
     std::optional<Event> switches{};  // the spring that ends it
   };
   struct Hit {
@@ -123,8 +124,7 @@ class PiecewiseMotion : public model::Motion {
 
   const ForcedModes& modes(const Flight& flight) const { return regimes_[flight.regime]; }
   Vector total(const Flight& flight, double t) const;
-  Eigen::MatrixXd covariance_after(const Flight& flight, double s) const;
-  double factor(std::size_t flight) const;
+  FlightErrors errors_after(const Flight& flight, double s) const;
 
   std::string who_;
   model::ImpactProblem<> problem_;

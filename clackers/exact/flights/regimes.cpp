@@ -131,17 +131,11 @@ std::size_t PiecewiseMotion::Builder::after_impact(std::size_t regime) {
   return this->regime(closed);
 }
 
-MatrixXd PiecewiseMotion::Builder::change(std::size_t from, std::size_t to) const {
-  const auto &before = m_.regimes_[from], &after = m_.regimes_[to];
-  if (from == to) return MatrixXd::Identity(2 * before.dof(), 2 * before.dof());
-  return after.change(before.derivative(0), before.derivative(1));
-}
-
 void PiecewiseMotion::Builder::change_regime() {
   const auto [contact, s] = *std::exchange(switching_, std::nullopt);
   const auto now = flight().regime;
   const double t = flight().t + s;
-  State state{now, t, m_.total(flight(), t), m_.covariance_after(flight(), s)};
+  State state{now, t, m_.total(flight(), t), m_.errors_after(flight(), s)};
   if (!is_spring(contact)) {
     passed_[contact] = false;
     opens_[contact] = Begin::by_speed;
@@ -153,7 +147,7 @@ void PiecewiseMotion::Builder::change_regime() {
   auto closed = closed_[now];
   closed[contact].flip();
   begin(seen_in(regime(closed), state));
-  m_.flights_.back().covariance = m_.covariance_after(flight(), 0.0);
+  m_.flights_.back().errors = m_.errors_after(flight(), 0.0);
   if (closed[contact]) m_.spring_contacts_.push_back(t);
 }
 

@@ -17,10 +17,17 @@ using Eigen::VectorXd;
 
 auto PiecewiseMotion::Builder::seen_in(std::size_t regime, const State& state) const -> State {
   if (regime == state.regime) return state;
-  const auto& modes = m_.regimes_[state.regime];
-  return {regime, state.t,
-          m_.regimes_[regime].state(modes.displacement(state.z), modes.velocity(state.z)),
-          mapped(change(state.regime, regime), state.covariance), state.time_error};
+  const auto &before = m_.regimes_[state.regime], &after = m_.regimes_[regime];
+  State seen{regime, state.t, after.state(before.displacement(state.z), before.velocity(state.z)),
+             state.errors, state.time_error};
+  if (!m_.has_bounds_) return seen;
+  std::vector<VectorXd> opened;
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (closed_[state.regime][i] && !closed_[regime][i])
+      opened.push_back((is_spring(i) ? rows_[state.regime][i].seen : *m_.forces_[state.regime][i])
+                           .by_state.col(0));
+  seen.errors.change(before, after, opened);
+  return seen;
 }
 
 std::size_t PiecewiseMotion::Builder::resting(const State& state,
@@ -88,7 +95,7 @@ void PiecewiseMotion::Builder::release(const std::vector<Closing>& closings) {
   const double s = closings.front().s, t = flight().t + s;
   std::vector<std::size_t> contacts;
   for (const auto& closing : closings) contacts.push_back(closing.contact);
-  State held{flight().regime, t, m_.total(flight(), t), m_.covariance_after(flight(), s)};
+  State held{flight().regime, t, m_.total(flight(), t), m_.errors_after(flight(), s)};
   auto open = seen_in(with_held(held.regime, contacts, false), held);
   const auto next = resting_by_jerk(open, contacts);
   for (const auto& closing : closings) {
@@ -97,8 +104,7 @@ void PiecewiseMotion::Builder::release(const std::vector<Closing>& closings) {
     const auto& row = rows_[open.regime][closing.contact];
     const double jerk = std::abs(watch(closing.contact, s).slope);
     if (m_.has_bounds_)
-      open.covariance.diagonal() +=
-          (0.5 * jerk * std::pow(closing.time_error, 2) * row.impulse).cwiseAbs2();
+      open.errors.add_columns(0.5 * jerk * std::pow(closing.time_error, 2) * row.impulse);
   }
   begin(seen_in(next, open));
 }
@@ -110,7 +116,7 @@ bool PiecewiseMotion::Builder::come_to_rest(std::size_t i, double level, bool is
   if (departs() || !(eta < 1.0 && gap.slope > 0.0 && fall > 0.0)) return false;
   if (is_resolved && gap.slope * gap.slope > 600.0 * fall * level) return false;
   const auto base = flight().regime, next = with_held(base, {i}, true);
-  const State now{base, t, m_.total(flight(), t), flight().covariance};
+  const State now{base, t, m_.total(flight(), t), flight().errors};
   auto held = seen_in(next, now);
   const auto& modes = m_.regimes_[next];
   const double w = delassus(base, i, i);
@@ -223,8 +229,10 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
   const VectorXd momentum = gap * seconds * of_stiffness + drift * of_damping;
   const VectorXd displacement =
       2.0 * gap * seconds * after.change(slowing, VectorXd::Zero(m_.dof()));
-  if (m_.has_bounds_)
-    held.covariance += momentum * momentum.transpose() + displacement * displacement.transpose();
+  if (m_.has_bounds_) {
+    held.errors.add_columns(momentum);
+    held.errors.add_columns(displacement);
+  }
   return skipped;
 }
 
@@ -234,7 +242,7 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
 void PiecewiseMotion::Builder::land(const Closing& closing) {
   const auto i = closing.contact;
   const double s = closing.s, t = flight().t + s;
-  const State now{flight().regime, t, m_.total(flight(), t), m_.covariance_after(flight(), s)};
+  const State now{flight().regime, t, m_.total(flight(), t), m_.errors_after(flight(), s)};
   auto held = seen_in(with_held(now.regime, {i}, true), now);
   const auto gap = watch(i, s);
   const double level = std::abs(gap.value) + certain_gap * closing.gap_error;

@@ -193,7 +193,7 @@ MatrixXd ModalSystem::derivative(int order) const {
 }
 
 MatrixXd ModalSystem::inverse() const {
-  if (whole_inverse_.size() > 0) return whole_inverse_;
+  if (is_coupled()) return whole_inverse_;
   const Index n = dof(), m = std::ssize(modes_);
   MatrixXd both = MatrixXd::Zero(2 * m, 2 * n);
   both.topLeftCorner(m, n) = both.bottomRightCorner(m, n) = inverse_;
@@ -255,7 +255,7 @@ ModalSystem ModalSystem::seen_through(const MatrixXd& basis, const MatrixXd& inv
   seen.shapes_ = basis * shapes_;
   seen.rate_shapes_ = basis * rate_shapes_;
   seen.inverse_ = inverse_ * inverse;
-  if (whole_inverse_.size() == 0) return seen;
+  if (!is_coupled()) return seen;
   seen.whole_inverse_.resize(2 * m, 2 * n);
   seen.whole_inverse_ << whole_inverse_.leftCols(m) * inverse,
       whole_inverse_.rightCols(m) * inverse;
@@ -285,7 +285,7 @@ void ModalSystem::to_modes(std::span<const double> u, std::span<const double> v,
     ModalState state;
     if (diagonal_) {
       state = {inverse_(j, j) * u[std::size_t(j)], inverse_(j, j) * v[std::size_t(j)]};
-    } else if (whole_inverse_.size() == 0) {
+    } else if (!is_coupled()) {
       for (Index i = 0; i < n; ++i) {
         state.y += inverse_(j, i) * u[std::size_t(i)];
         state.rate += inverse_(j, i) * v[std::size_t(i)];
@@ -306,7 +306,6 @@ void ModalSystem::sample(std::span<const ModalState> start, double s, std::span<
                          std::span<double> v) const {
   std::fill(u.begin(), u.end(), 0.0);
   std::fill(v.begin(), v.end(), 0.0);
-  const bool is_coupled = whole_inverse_.size() > 0;
   for (Index j = 0; j < std::ssize(modes_); ++j) {
     const Mode& mode = modes_[std::size_t(j)];
     const auto now = advance(mode, start[std::size_t(j)], s);
@@ -315,7 +314,7 @@ void ModalSystem::sample(std::span<const ModalState> start, double s, std::span<
     for (Index i = first; i < last; ++i) {
       u[std::size_t(i)] += shapes_(i, j) * now.y;
       if (!v.empty()) v[std::size_t(i)] += shapes_(i, j) * now.rate;
-      if (!is_coupled) continue;
+      if (!is_coupled()) continue;
       u[std::size_t(i)] += rate_shapes_(i, j) * now.rate;
       if (!v.empty()) v[std::size_t(i)] += rate_shapes_(i, j) * acceleration;
     }

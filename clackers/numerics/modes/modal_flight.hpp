@@ -70,6 +70,8 @@ class ModalSystem {
   /// Columns; normalised with the mass matrix where the damping does not couple them.
   const Eigen::MatrixXd& shapes() const { return shapes_; }
   const Eigen::MatrixXd& rate_shapes() const { return rate_shapes_; }
+  /// Whether damping couples them.
+  bool is_coupled() const { return whole_inverse_.size() > 0; }
   double fastest() const { return fastest_; }  ///< largest omega, or rate of decay [1/s]
 
   /// The derivative of u of this order is this matrix times (y_1, y_2, ..., y_1', y_2', ...).

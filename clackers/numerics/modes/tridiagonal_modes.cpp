@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <utility>
 
 #include "clackers/base/constants.hpp"
-#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::numerics {
 namespace {
@@ -121,16 +121,20 @@ class Block {
     }
   }
 
-  // Nothing where they are not found.
+  // Nothing where they are not told apart.
   std::optional<std::vector<RefinedMode>> modes() const {
-    const auto near = normal_modes(rounded(k_), rounded(m_));
-    if (!near) return std::nullopt;
-    std::vector<RefinedMode> modes;
-    for (Index j = 0; j < near->shapes.cols(); ++j) {
-      RefinedMode mode;
-      for (const double x : near->shapes.col(j)) mode.shape.push_back({x, 0.0});
-      refine(mode, near->squares.cwiseAbs().maxCoeff());
-      modes.push_back(std::move(mode));
+    if (!(least_mass_ > 0.0)) return std::nullopt;
+    std::vector<RefinedMode> modes(size());
+    std::minstd_rand random(1);
+    std::uniform_real_distribution<double> any(0.5, 1.5);
+    const auto squares = this->squares();
+    for (std::size_t j = 0; j < size(); ++j) {
+      Vector start(size());
+      for (auto& x : start) x = {any(random), 0.0};
+      // The matrix of one mass may be 0.
+      modes[j].shape =
+          size() > 1 ? solved(k_, m_, {squares[Index(j)], 0.0}, std::move(start)) : start;
+      refine(modes[j], squares.cwiseAbs().maxCoeff());
     }
     for (std::size_t j = 0; j < modes.size(); ++j) {
       double apart = std::numeric_limits<double>::infinity();
@@ -149,12 +153,40 @@ class Block {
             {a.off_diagonal.begin() + Index(first), a.off_diagonal.begin() + Index(last - 1)}};
   }
   std::size_t size() const { return k_.diagonal.size(); }
-  static Eigen::MatrixXd rounded(const Tridiagonal& a) {
-    const auto n = Index(a.diagonal.size());
-    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(n, n);
-    for (Index i = 0; i < n; ++i) x(i, i) = a.diagonal[std::size_t(i)].hi;
-    for (Index i = 0; i + 1 < n; ++i) x(i, i + 1) = x(i + 1, i) = a.off_diagonal[std::size_t(i)].hi;
-    return x;
+  // Ascending, to the rounding of the largest, by bisection: K - x M has as many negative pivots as there
+  // are squares below x. B. N. Parlett, chapter 3.
+  Eigen::VectorXd squares() const {
+    constexpr Index lanes = 8;
+    using Lanes = Eigen::Array<double, lanes, 1>;
+    const auto n = Index(size());
+    double bound = 0.0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      double sum = std::abs(k_.diagonal[i].hi);
+      if (i > 0) sum += std::abs(k_.off_diagonal[i - 1].hi);
+      if (i + 1 < size()) sum += std::abs(k_.off_diagonal[i].hi);
+      bound = std::max(bound, sum / least_mass_);
+    }
+    Eigen::VectorXd found(n);
+    for (Index first = 0; first < n; first += lanes) {
+      const Lanes number = Lanes::LinSpaced(double(first), double(first + lanes - 1));
+      Lanes low = Lanes::Constant(-bound), high = -low;
+      for (int halving = 0; halving < 60; ++halving) {
+        const Lanes x = 0.5 * (low + high);
+        Lanes off = Lanes::Zero(), pivot = Lanes::Ones(), below = Lanes::Zero();
+        for (std::size_t i = 0; i < size(); ++i) {
+          if (i > 0) off = k_.off_diagonal[i - 1].hi - x * m_.off_diagonal[i - 1].hi;
+          pivot = k_.diagonal[i].hi - x * m_.diagonal[i].hi - off * off / pivot;
+          pivot = (pivot == 0.0).select(rounding * bound * least_mass_, pivot);
+          below += (pivot < 0.0).cast<double>();
+        }
+        const auto is_below = (below > number).eval();
+        high = is_below.select(x, high);
+        low = is_below.select(low, x);
+      }
+      const Index count = std::min(lanes, n - first);
+      found.segment(first, count) = (0.5 * (low + high)).matrix().head(count);
+    }
+    return found;
   }
 
   void refine(RefinedMode& mode, double largest) const {

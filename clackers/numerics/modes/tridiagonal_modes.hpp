@@ -22,7 +22,7 @@ struct TridiagonalModes {
   Eigen::MatrixXd shapes;
 };
 
-/// By Rayleigh quotient iteration in double-double from the modes in doubles; a residual r of a mode in the
+/// By Rayleigh quotient iteration in double-double from squares by bisection; a residual r of a mode in the
 /// norm of M^-1 is a bound on the error of its square, and r over the distance from the next square one on
 /// that of its shape: B. N. Parlett, The Symmetric Eigenvalue Problem, SIAM (1998), chapters 4 and 11.
 /// Nothing where squares of joined masses are too close for that, or a row of M has a diagonal entry that
