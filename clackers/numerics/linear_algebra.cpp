@@ -55,24 +55,11 @@ MatrixXd Cholesky::solve(const MatrixXd& b) const { return factors_.solve(b); }
 
 MatrixXd solved(const MatrixXd& a, const MatrixXd& b) { return Cholesky(a).solve(b); }
 
-Half nonzero_half(const Eigen::Ref<const MatrixXd>& a) {
+MatrixXd product_of_halves(const Eigen::Ref<const MatrixXd>& a, const MatrixXd& x) {
   const auto half = a.cols() / 2;
-  if (a.rightCols(half).isZero(0.0)) return Half::left;
-  return a.leftCols(half).isZero(0.0) ? Half::right : Half::both;
-}
-
-MatrixXd product_of_halves(const Eigen::Ref<const MatrixXd>& a, const MatrixXd& x, Half nonzero) {
-  const auto half = a.cols() / 2;
-  if (nonzero == Half::left) return a.leftCols(half) * x.topRows(half);
-  if (nonzero == Half::right) return a.rightCols(half) * x.bottomRows(half);
+  if (a.rightCols(half).isZero(0.0)) return a.leftCols(half) * x.topRows(half);
+  if (a.leftCols(half).isZero(0.0)) return a.rightCols(half) * x.bottomRows(half);
   return a * x;
-}
-
-MatrixXd product_of_quarters(const MatrixXd& a, const MatrixXd& x) {
-  const auto half = a.rows() / 2;
-  MatrixXd y(a.rows(), x.cols());
-  y << product_of_halves(a.topRows(half), x), product_of_halves(a.bottomRows(half), x);
-  return y;
 }
 
 MatrixXd shortest_solution(const MatrixXd& a, const MatrixXd& b) {

@@ -36,19 +36,10 @@ Eigen::MatrixXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::MatrixX
 /// Columns Z with rows Z = 0 and Z^T M Z = 1, for independent rows and a positive definite M.
 Eigen::MatrixXd unseen_directions(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& mass);
 
-/// Which columns of a matrix with an even number of them are not all 0: that half for velocities often is
-/// where rows are displacements.
-enum class Half { both, left, right };
-Half nonzero_half(const Eigen::Ref<const Eigen::MatrixXd>& a);
-/// A X, without the half of the columns of A that is 0.
+/// A X, where the left or the right half of the columns of A often is 0, as for velocities where rows are
+/// displacements.
 Eigen::MatrixXd product_of_halves(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                                  const Eigen::MatrixXd& x, Half nonzero);
-inline Eigen::MatrixXd product_of_halves(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                                         const Eigen::MatrixXd& x) {
-  return product_of_halves(a, x, nonzero_half(a));
-}
-/// The same of the upper and the lower rows of A.
-Eigen::MatrixXd product_of_quarters(const Eigen::MatrixXd& a, const Eigen::MatrixXd& x);
+                                  const Eigen::MatrixXd& x);
 
 /// x that makes |A x - b| least, by QR with column pivoting; pivots below `threshold` times the
 /// largest count as 0. A negative threshold is Eigen's own.

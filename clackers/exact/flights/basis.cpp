@@ -1,5 +1,7 @@
 #include "clackers/exact/flights/basis.hpp"
 
+#include <cmath>
+
 namespace clackers::exact {
 
 using Eigen::Index;
@@ -9,6 +11,10 @@ Basis::Basis(const Matrix& basis) : columns_(basis.cols()), rows_(std::size_t(ba
   for (Index j = 0; j < basis.cols(); ++j)
     for (Index i = 0; i < basis.rows(); ++i)
       if (basis(i, j) != 0.0) rows_[std::size_t(i)].emplace_back(j, basis(i, j));
+  same_.resize(std::size_t(columns_));
+  for (Index i = 0; i < basis.rows(); ++i)
+    if (const auto& row = rows_[std::size_t(i)]; row.size() == 1 && row[0].second == 1.0)
+      same_[std::size_t(row[0].first)] = i;
 }
 
 Basis::Matrix Basis::times(const Matrix& x) const {
@@ -16,6 +22,32 @@ Basis::Matrix Basis::times(const Matrix& x) const {
   for (Index i = 0; i < y.rows(); ++i)
     for (const auto& [j, entry] : rows_[std::size_t(i)]) y.row(i) += entry * x.row(j);
   return y;
+}
+
+Basis::Matrix Basis::transposed(const Matrix& x) const {
+  Matrix y = Matrix::Zero(columns_, x.cols());
+  for (Index i = 0; i < x.rows(); ++i)
+    for (const auto& [j, entry] : rows_[std::size_t(i)]) y.row(j) += entry * x.row(i);
+  return y;
+}
+
+Basis::Matrix Basis::sizes(Matrix u) const {
+  const Matrix all = u;
+  for (Index i = 0; i < u.rows(); ++i) {
+    u.row(i).setZero();
+    for (const auto& [j, entry] : rows_[std::size_t(i)])
+      u.row(i) += std::abs(entry) * all.row(same_[std::size_t(j)]);
+  }
+  return u;
+}
+
+Eigen::VectorXd Basis::sizes_transposed(Eigen::VectorXd on_u) const {
+  const Eigen::VectorXd all = on_u;
+  on_u.setZero();
+  for (Index i = 0; i < all.size(); ++i)
+    for (const auto& [j, entry] : rows_[std::size_t(i)])
+      on_u[same_[std::size_t(j)]] += std::abs(entry) * all[i];
+  return on_u;
 }
 
 Basis::Matrix Basis::reduced(const Matrix& x) const {

@@ -19,6 +19,12 @@ class Basis {
   Eigen::Index columns() const { return columns_; }
   /// basis x
   Matrix times(const Matrix& x) const;
+  /// basis' x
+  Matrix transposed(const Matrix& x) const;
+  /// What sizes of u, those of q where they are one of them, are of the sums |basis| q; and the transpose
+  /// of that map.
+  Matrix sizes(Matrix u) const;
+  Eigen::VectorXd sizes_transposed(Eigen::VectorXd on_u) const;
   /// basis' x basis of a symmetric x.
   Matrix reduced(const Matrix& x) const;
   /// The same of x + rest, if it has three diagonals; an empty rest is 0.
@@ -27,6 +33,7 @@ class Basis {
  private:
   Eigen::Index columns_;
   std::vector<std::vector<std::pair<Eigen::Index, double>>> rows_;  // columns and entries
+  std::vector<Eigen::Index> same_;                                  // of q_j the u_i that is q_j
 };
 
 }  // namespace clackers::exact

@@ -18,26 +18,40 @@ void ForcedModes::find_residuals() {
   if (square_errors_.size() > 0) return;
   const Index n = dof(), all = mass_.rows();
   const double rounding = 2.0 * double(all) * epsilon;
+  std::vector<Matrix> derivatives, sizes;
+  for (int order = 0; order <= 2; ++order) {
+    derivatives.push_back(system_.derivative(order));
+    sizes.push_back(onto_.sizes(derivatives.back().cwiseAbs()));
+  }
   Matrix whole(2 * all, 2 * n), whole_size(2 * all, 2 * n);
-  whole << derivatives_[0], derivatives_[1];
-  whole_size << derivative_sizes_[0], derivative_sizes_[1];
-  basis_residual_ = (inverse_ * whole - Matrix::Identity(2 * n, 2 * n)).cwiseAbs() +
-                    rounding * inverse_.cwiseAbs() * whole_size;
+  whole << derivatives[0], derivatives[1];
+  whole_size << sizes[0], sizes[1];
+  const Matrix inverse = system_.inverse();
+  basis_residual_ = (inverse * whole - Matrix::Identity(2 * n, 2 * n)).cwiseAbs() +
+                    rounding * inverse.cwiseAbs() * whole_size;
   const Matrix left =
-      mass_ * derivatives_[2] + damping_ * derivatives_[1] + stiffness_ * derivatives_[0];
-  const Matrix size = mass_.cwiseAbs() * derivative_sizes_[2] +
-                      damping_.cwiseAbs() * derivative_sizes_[1] +
-                      stiffness_.cwiseAbs() * derivative_sizes_[0];
-  force_residual_ =
-      (impulse_response_ * left).cwiseAbs() + rounding * impulse_response_.cwiseAbs() * size;
+      mass_ * derivatives[2] + damping_ * derivatives[1] + stiffness_ * derivatives[0];
+  const auto size_of = [](const Sparse& x) { return Sparse(x.cwiseAbs()); };
+  const Matrix size =
+      size_of(mass_) * sizes[2] + size_of(damping_) * sizes[1] + size_of(stiffness_) * sizes[0];
+  Matrix response = Matrix::Zero(2 * n, all);
+  if (system_.is_coupled())
+    response = impulse_response_;
+  else
+    response.bottomRows(n) = system_.shapes().transpose();
+  force_residual_ = (response * left).cwiseAbs() + rounding * response.cwiseAbs() * size;
 }
 
 // Without a defect only what rounding does.
 Vector ForcedModes::shift(const Vector& whole) const {
   if (square_errors_.size() == 0) return basis_residual_ * whole;
-  Vector sums(inverse_.cols());
-  sums << derivative_sizes_[0] * whole, derivative_sizes_[1] * whole;
-  return 2.0 * double(mass_.rows()) * epsilon * (inverse_.cwiseAbs() * sums);
+  Vector sums(whole.size());
+  for (const int order : {0, 1}) {
+    const Vector of_structure = derived_sizes(order, whole);
+    for (Index j = 0; j < dof(); ++j)
+      sums[order * dof() + j] = system_.coordinates().row(j).cwiseAbs().dot(of_structure);
+  }
+  return 2.0 * double(mass_.rows()) * epsilon * sums;
 }
 
 Vector ForcedModes::defect(const Vector& whole) const {

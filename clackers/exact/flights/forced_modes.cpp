@@ -10,10 +10,10 @@
 
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/exact/flights/basis.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 #include "clackers/numerics/modes/tridiagonal_modes.hpp"
+#include "clackers/numerics/spd_solver.hpp"
 
 namespace clackers::exact {
 
@@ -23,6 +23,18 @@ using Vector = ForcedModes::Vector;
 using Complex = std::complex<double>;
 
 namespace {
+
+// A product A x with the sizes of the entries of A, which are not copied.
+Vector product_of_sizes(const Matrix& a, const Vector& x) {
+  Vector y = Vector::Zero(a.rows());
+  for (Index j = 0; j < a.cols(); ++j) y += a.col(j).cwiseAbs() * x[j];
+  return y;
+}
+Vector transposed_product_of_sizes(const Matrix& a, const Vector& x) {
+  Vector y(a.cols());
+  for (Index j = 0; j < a.cols(); ++j) y[j] = a.col(j).cwiseAbs().dot(x);
+  return y;
+}
 
 std::optional<numerics::TridiagonalModes> modes_without_defect(
     const model::ImpactProblem<>& problem, const Basis& onto, const Matrix& stiffness_rest) {
@@ -37,49 +49,54 @@ std::optional<numerics::TridiagonalModes> modes_without_defect(
 
 ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view who,
                          const Matrix& basis, const Vector& offset, const Matrix& stiffness_rest)
-    : mass_(problem.system.mass),
-      damping_(problem.system.damping),
-      stiffness_(problem.system.stiffness),
+    : mass_(problem.system.mass.sparseView()),
+      damping_(problem.system.damping.sparseView()),
+      stiffness_(problem.system.stiffness.sparseView()),
+      onto_(basis),
       offset_(offset) {
-  const auto& add_load = problem.system.add_load;
-  const auto* load = add_load.target<model::HarmonicLoad>();
-  if (problem.system.nonlinear || (add_load && load == nullptr))
+  const auto& system = problem.system;
+  const auto* load = system.add_load.target<model::HarmonicLoad>();
+  if (system.nonlinear || (system.add_load && load == nullptr))
     refuse(who, "system", "with a nonlinear force or any load", "linear, with harmonic loads", {},
            "linear-only");
-  const Basis onto(basis), onto_size(basis.cwiseAbs());
-  const Matrix reduced_mass = onto.reduced(mass_);
-  if (const auto modes = modes_without_defect(problem, onto, stiffness_rest)) {
-    system_ = numerics::ModalSystem::undamped(modes->squares, modes->shapes, reduced_mass);
-    square_errors_ = modes->square_errors;
+  const Matrix reduced_mass = onto_.reduced(system.mass);
+  const auto seen = [&](std::vector<numerics::Mode> modes, const Matrix& shapes) {
+    Matrix of_structure = onto_.times(shapes);
+    Matrix coordinates = of_structure.transpose() * mass_;
+    return numerics::ModalSystem(std::move(modes), std::move(of_structure), std::move(coordinates));
+  };
+  if (const auto found = modes_without_defect(problem, onto_, stiffness_rest)) {
+    std::vector<numerics::Mode> modes;
+    for (const double square : found->squares) modes.emplace_back(0.0, square);
+    system_ = seen(std::move(modes), found->shapes);
+    square_errors_ = found->square_errors;
   } else {
-    auto system =
-        numerics::ModalSystem::make(reduced_mass, onto.reduced(damping_), onto.reduced(stiffness_));
-    if (!system)
+    auto made = numerics::ModalSystem::make(reduced_mass, onto_.reduced(system.damping),
+                                            onto_.reduced(system.stiffness));
+    if (!made)
       throw InputError(
           fmt::format("{}: two modes that the damping couples have the same eigenvalue and "
                       "the same shape, or nearly so; allowed: motions that are sums of "
                       "modes. Change a number of the damping matrix a little.",
                       who),
           "out-of-range");
-    system_ = std::move(*system);
+    const bool is_whole = made->dof() == mass_.rows();
+    if (made->is_coupled()) {
+      const Matrix of_forces = numerics::solved(reduced_mass, basis.transpose());
+      impulse_response_ = made->inverse().rightCols(made->dof()) * of_forces;
+      system_ = is_whole ? *made : made->seen_through(basis, of_forces * mass_);
+    } else {
+      system_ = is_whole ? *made : seen(made->modes(), made->shapes());
+    }
   }
-  for (int order = 0; order <= 3; ++order) {
-    const Matrix of_modes = system_.derivative(order);
-    derivatives_.push_back(onto.times(of_modes));
-    nonzero_.push_back(numerics::nonzero_half(derivatives_.back()));
-    derivative_sizes_.push_back(onto_size.times(of_modes.cwiseAbs()));
-  }
-  const Index n = mass_.rows(), free = dof();
-  const Matrix of_forces =
-      free > 0 ? numerics::solved(reduced_mass, basis.transpose()) : Matrix(Matrix::Zero(0, n));
-  const Matrix inverse = system_.inverse();
-  impulse_response_ = inverse.rightCols(free) * of_forces;
-  inverse_.resize(2 * free, 2 * n);
-  if (free == n)
-    inverse_ = inverse;
-  else
-    inverse_ << inverse.leftCols(free) * (of_forces * mass_), impulse_response_ * mass_;
-  const Matrix inverse_mass = onto.times(of_forces);
+  numerics::SpdSolver<Eigen::Dynamic> solver;
+  if (dof() > 0) solver.compute(reduced_mass);
+  const auto accelerations = [&](const Matrix& forces) {
+    Matrix q = onto_.transposed(forces);
+    if (dof() > 0) solver.solve_in_place(q);
+    return onto_.times(q);
+  };
+  const Index n = mass_.rows();
   if (load != nullptr) {
     std::vector<std::pair<model::HarmonicForce, Eigen::VectorXcd>> loads;  // one of each frequency
     for (const auto& f : load->forces()) {
@@ -89,10 +106,10 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
       all->second[f.dof] += std::polar(f.amplitude, f.phase);
     }
     for (const auto& [f, applied] : loads)
-      add_force(applied, f.frequency, inverse_mass, who, f.dof);
+      add_force(applied, f.frequency, accelerations, who, f.dof);
   }
   if (!offset.isZero(0.0)) {
-    add_force((-stiffness_ * offset).cast<Complex>(), 0.0, inverse_mass, who, 0);
+    add_force((-(stiffness_ * offset)).cast<Complex>(), 0.0, accelerations, who, 0);
     forces_.back().applied.setZero();  // the structure's own
   }
   find_residuals();
@@ -100,13 +117,19 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
 
 // z' = A z + g e^(i w t) mode by mode.
 void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
-                            const Matrix& inverse_mass, std::string_view who, int dof_of_load) {
+                            const Accelerations& accelerations, std::string_view who,
+                            int dof_of_load) {
   const Index n = dof();
+  const auto apart = [](const auto& function, const Eigen::VectorXcd& x) {
+    Eigen::VectorXcd y = function(Vector(x.imag())).template cast<Complex>() * Complex(0.0, 1.0);
+    y += function(Vector(x.real())).template cast<Complex>();
+    return y;
+  };
   Force force;
   force.frequency = frequency;
   force.applied = applied;
-  force.acceleration = inverse_mass.cast<Complex>() * applied;
-  const Eigen::VectorXcd g = impulse_response_.cast<Complex>() * applied;
+  force.acceleration = apart(accelerations, applied);
+  const Eigen::VectorXcd g = apart([&](const Vector& x) { return impulse(x); }, applied);
   const Complex turn(0.0, frequency);
   force.steady = Eigen::VectorXcd::Zero(2 * n);
   for (Index j = 0; j < n; ++j) {
@@ -133,22 +156,24 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
     force.steady[n + j] = turn * force.steady[j] - g[j];
   }
   if (square_errors_.size() > 0) {
-    force.defect_per_time =
-        2.0 * double(n + 4) * epsilon * (impulse_response_.cwiseAbs() * applied.cwiseAbs());
+    force.defect_per_time = 2.0 * double(n + 4) * epsilon * impulses(applied.cwiseAbs(), true);
     for (Index j = 0; j < n; ++j)
       force.defect_per_time[n + j] +=
           4.0 * epsilon * (system_.modes()[std::size_t(j)].omega_square + frequency * frequency) *
           std::abs(force.steady[j]);
   } else {
-    Eigen::VectorXcd left(2 * mass_.rows());
-    left << derivatives_[0] * g, derivatives_[1] * g - force.acceleration;
-    force.defect_per_time = (inverse_.cast<Complex>() * left).cwiseAbs();
+    const auto left = [&](const auto& part) {
+      const Vector z = part(g), a = derived_states(1, z) - Vector(part(force.acceleration));
+      return change(derived_states(0, z), a);
+    };
+    const Matrix real = left([](const auto&x) { return Vector(x.real()); }),
+                 imaginary = left([](const auto&x) { return Vector(x.imag()); });
+    force.defect_per_time = (real.cwiseAbs2() + imaginary.cwiseAbs2()).cwiseSqrt();
   }
   // What the force itself rounds, where it is that of an offset.
   if (frequency == 0.0)
-    force.defect_per_time +=
-        2.0 * double(n + 4) * epsilon *
-        (impulse_response_.cwiseAbs() * (stiffness_.cwiseAbs() * offset_.cwiseAbs()));
+    force.defect_per_time += 2.0 * double(n + 4) * epsilon *
+                             impulses(Sparse(stiffness_.cwiseAbs()) * offset_.cwiseAbs(), true);
   forces_.push_back(std::move(force));
 }
 
@@ -163,13 +188,82 @@ Vector ForcedModes::derived(const Vector& row) const {
   return next;
 }
 
-Matrix ForcedModes::change(const Matrix& u, const Matrix& v) const {
-  Matrix both(u.rows() + v.rows(), u.cols());
-  both << u, v;
-  return numerics::product_of_quarters(inverse_, both);
+Matrix ForcedModes::derived_states(int order, const Matrix& z) const {
+  const Index n = dof();
+  Matrix y = z.topRows(n), rate = z.bottomRows(n);
+  for (; order > 0; --order)
+    for (Index j = 0; j < n; ++j) {
+      const auto& mode = system_.modes()[std::size_t(j)];
+      y.row(j) = -mode.omega_square * y.row(j) - 2.0 * mode.sigma * rate.row(j);
+      y.row(j).swap(rate.row(j));
+    }
+  Matrix u = system_.shapes() * y;
+  if (system_.is_coupled()) u += system_.rate_shapes() * rate;
+  return u;
 }
 
-Vector ForcedModes::impulse(const Vector& direction) const { return impulse_response_ * direction; }
+Vector ForcedModes::derived_sizes(int order, const Vector& z) const {
+  const Index n = dof();
+  Vector y = z.head(n), rate = z.tail(n);
+  for (; order > 0; --order)
+    for (Index j = 0; j < n; ++j) {
+      const auto& mode = system_.modes()[std::size_t(j)];
+      y[j] = std::abs(mode.omega_square) * y[j] + 2.0 * std::abs(mode.sigma) * rate[j];
+      std::swap(y[j], rate[j]);
+    }
+  Vector u = product_of_sizes(system_.shapes(), y);
+  if (system_.is_coupled()) u += product_of_sizes(system_.rate_shapes(), rate);
+  return onto_.sizes(u);
+}
+
+Vector ForcedModes::row(int order, const Vector& direction) const {
+  const Index n = dof();
+  Vector row = Vector::Zero(2 * n);
+  if (direction.isZero(0.0)) return row;
+  row.head(n) = system_.shapes().transpose() * direction;
+  if (system_.is_coupled()) row.tail(n) = system_.rate_shapes().transpose() * direction;
+  for (; order > 0; --order) row = derived(row);
+  return row;
+}
+
+Vector ForcedModes::row_of_sizes(int order, const Vector& direction) const {
+  const Index n = dof();
+  Vector row = Vector::Zero(2 * n);
+  if (direction.isZero(0.0)) return row;
+  const Vector sizes = onto_.sizes_transposed(direction.cwiseAbs());
+  row.head(n) = transposed_product_of_sizes(system_.shapes(), sizes);
+  if (system_.is_coupled()) row.tail(n) = transposed_product_of_sizes(system_.rate_shapes(), sizes);
+  for (; order > 0; --order)
+    for (Index j = 0; j < n; ++j) {
+      const auto& mode = system_.modes()[std::size_t(j)];
+      row[j] += 2.0 * std::abs(mode.sigma) * row[n + j];
+      row[n + j] *= std::abs(mode.omega_square);
+      std::swap(row[j], row[n + j]);
+    }
+  return row;
+}
+
+Matrix ForcedModes::change(const Matrix& u, const Matrix& v) const {
+  Matrix z(2 * dof(), u.cols());
+  if (system_.is_coupled()) {
+    Matrix both(u.rows() + v.rows(), u.cols());
+    both << u, v;
+    z = system_.inverse() * both;
+  } else {
+    z << system_.coordinates() * u, system_.coordinates() * v;
+  }
+  return z;
+}
+
+Vector ForcedModes::impulses(const Vector& direction, bool of_sizes) const {
+  if (system_.is_coupled())
+    return of_sizes ? product_of_sizes(impulse_response_, direction)
+                    : Vector(impulse_response_ * direction);
+  Vector z = Vector::Zero(2 * dof());
+  z.tail(dof()) = of_sizes ? transposed_product_of_sizes(system_.shapes(), direction)
+                           : Vector(system_.shapes().transpose() * direction);
+  return z;
+}
 
 Vector ForcedModes::steady(double t) const {
   Vector z = Vector::Zero(2 * dof());
@@ -205,7 +299,7 @@ Vector ForcedModes::rate(const Vector& z) const {
 }
 
 Vector ForcedModes::acceleration(const Vector& z, double t) const {
-  Vector a = derivatives_[2] * z;
+  Vector a = derived_states(2, z);
   for (const auto& force : forces_)
     a += (force.acceleration * std::polar(1.0, force.frequency * t)).real();
   return a;
@@ -214,11 +308,8 @@ Vector ForcedModes::acceleration(const Vector& z, double t) const {
 auto ForcedModes::observe(const Vector& on_u, const Vector& on_v, const Vector& on_a,
                           const Vector& on_load, double constant) const -> Observable {
   Observable seen;
-  Vector row = derivatives_[0].transpose() * on_u + derivatives_[1].transpose() * on_v +
-               derivatives_[2].transpose() * on_a;
-  seen.size = derivative_sizes_[0].transpose() * on_u.cwiseAbs() +
-              derivative_sizes_[1].transpose() * on_v.cwiseAbs() +
-              derivative_sizes_[2].transpose() * on_a.cwiseAbs();
+  Vector row = this->row(0, on_u) + this->row(1, on_v) + this->row(2, on_a);
+  seen.size = row_of_sizes(0, on_u) + row_of_sizes(1, on_v) + row_of_sizes(2, on_a);
   seen.by_state.resize(row.size(), 5);
   for (int order = 0; order < 5; ++order, row = derived(row)) seen.by_state.col(order) = row;
   seen.constant = constant + on_u.dot(offset_);

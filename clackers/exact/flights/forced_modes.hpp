@@ -1,10 +1,13 @@
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <complex>
+#include <functional>
 #include <string_view>
 #include <vector>
 
+#include "clackers/exact/flights/basis.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/numerics/first_root.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
@@ -25,6 +28,7 @@ class ForcedModes {
  public:
   using Matrix = Eigen::MatrixXd;
   using Vector = Eigen::VectorXd;
+  using Sparse = Eigen::SparseMatrix<double>;
 
   /// Throws InputError, `who` first, for a load that is no HarmonicLoad, a nonlinear force, modes of
   /// which the motion is no sum, and a force in resonance with an undamped mode. Bounds hold where
@@ -65,28 +69,24 @@ class ForcedModes {
 
   const numerics::ModalSystem& system() const { return system_; }
   /// Of the modes; the structure may have more.
-  Eigen::Index dof() const { return system_.dof(); }
-  const Matrix& mass() const { return mass_; }
-  const Matrix& damping() const { return damping_; }
-  const Matrix& stiffness() const { return stiffness_; }
+  Eigen::Index dof() const { return std::ssize(system_.modes()); }
+  const Sparse& mass() const { return mass_; }
+  const Sparse& damping() const { return damping_; }
+  const Sparse& stiffness() const { return stiffness_; }
   const Vector& offset() const { return offset_; }
   const std::vector<Force>& forces() const { return forces_; }
-  /// The derivative of u of order 0 to 3 by z, without that of the forces.
-  const Matrix& derivative(int order) const { return derivatives_[std::size_t(order)]; }
-  /// What was added up for it.
-  const Matrix& derivative_size(int order) const { return derivative_sizes_[std::size_t(order)]; }
   /// The derivatives of u of that order in states z, one a column, without that of the forces.
-  Matrix derived_states(int order, const Matrix& z) const {
-    return numerics::product_of_halves(derivative(order), z, nonzero_[std::size_t(order)]);
-  }
-  Vector displacement(const Vector& z) const { return offset_ + derivatives_[0] * z; }
-  Vector velocity(const Vector& z) const { return derivatives_[1] * z; }
+  Matrix derived_states(int order, const Matrix& z) const;
+  /// What is added up for them where |z| has these sizes.
+  Vector derived_sizes(int order, const Vector& z) const;
+  Vector displacement(const Vector& z) const { return offset_ + derived_states(0, z); }
+  Vector velocity(const Vector& z) const { return derived_states(1, z); }
   /// The row of which row . z is the time derivative, modes alone.
   Vector derived(const Vector& row) const;
 
   Vector state(const Vector& u, const Vector& v) const { return change(u - offset_, v); }
   /// Change of z by a unit impulse along a direction.
-  Vector impulse(const Vector& direction) const;
+  Vector impulse(const Vector& direction) const { return impulses(direction, false); }
   /// on_u . u + on_v . v + on_a . a + on_load . f + constant
   Observable observe(const Vector& on_u, const Vector& on_v, const Vector& on_a,
                      const Vector& on_load, double constant) const;
@@ -106,9 +106,7 @@ class ForcedModes {
   Matrix change(const Matrix& u, const Matrix& v) const;
   /// y of mode j as a row times the state z of other modes.
   Vector displacement_of_mode(Eigen::Index j, const ForcedModes& other) const {
-    const auto n = inverse_.cols() / 2;
-    return other.derivative(0).transpose() * inverse_.row(j).head(n).transpose() +
-           other.derivative(1).transpose() * inverse_.row(j).tail(n).transpose();
+    return other.row(0, system_.coordinates().row(j).transpose());
   }
   /// z of the steady response.
   Vector steady(double t) const;
@@ -128,20 +126,26 @@ class ForcedModes {
   Vector local_errors(const Vector& z, double t, double s) const;
 
  private:
-  void add_force(const Eigen::VectorXcd& applied, double frequency, const Matrix& inverse_mass,
-                 std::string_view who, int dof);
+  /// The accelerations that forces on the structure give it.
+  using Accelerations = std::function<Matrix(const Matrix&)>;
+  void add_force(const Eigen::VectorXcd& applied, double frequency,
+                 const Accelerations& accelerations, std::string_view who, int dof);
   void find_residuals();
+  /// Of direction . u^(order) as a row times z; of the sizes of what is added up.
+  Vector row(int order, const Vector& direction) const;
+  Vector row_of_sizes(int order, const Vector& direction) const;
+  /// Of impulses, or what the sizes of them add up to.
+  Vector impulses(const Vector& direction, bool of_sizes) const;
   /// How far z may be from the state that it stands for, and what acts as a force on each mode, where the
   /// modes and the steady response have these sizes.
   Vector shift(const Vector& whole) const;
   Vector defect(const Vector& whole) const;
 
-  Matrix mass_, damping_, stiffness_;
-  numerics::ModalSystem system_;
+  Sparse mass_, damping_, stiffness_;
+  Basis onto_;
+  numerics::ModalSystem system_;  // of u - offset
   Vector offset_;
-  std::vector<Matrix> derivatives_, derivative_sizes_;
-  std::vector<numerics::Half> nonzero_;     // of the derivatives
-  Matrix inverse_, impulse_response_;       // z by (u, v), and by impulses
+  Matrix impulse_response_;                 // z by impulses, where damping couples modes
   Matrix basis_residual_, force_residual_;  // of z: its own error, and the rate of it
   Vector square_errors_;                    // of modes without a defect, instead of the residuals
   std::vector<numerics::ModalState> push_;  // what constant forces add to dz/dt; empty for none

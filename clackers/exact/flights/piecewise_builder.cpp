@@ -11,6 +11,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
+#include "clackers/numerics/spd_solver.hpp"
 
 #ifdef CLACKERS_HAS_ARB
 #include "clackers/exact/certified/flights_enclosure.hpp"
@@ -29,6 +30,10 @@ constexpr double most_bytes = 2e9;
 // Symmetric; a product such as S' K S leaves 1e-12 of the largest eigenvalue.
 void require_no_negative_eigenvalue(std::string_view who, const char* name, const MatrixXd& x,
                                     const char* reason) {
+  if (x.isZero(0.0)) return;
+  MatrixXd raised = x;
+  raised.diagonal().array() += 1e-12 * x.diagonal().maxCoeff();
+  if (numerics::SpdSolver<Eigen::Dynamic>().compute(raised)) return;
   const VectorXd values = numerics::symmetric_eigenvalues(x);
   if (!(values.minCoeff() >= -1e-12 * values.cwiseAbs().maxCoeff()))
     throw InputError(fmt::format("{}: {} has the eigenvalue {:.6g}; allowed: none below 0. {}", who,
@@ -118,6 +123,12 @@ bool PiecewiseMotion::Builder::sharpen() {
   switching_.reset();
   State state{flight().regime, flight().t, modes().state(exact->first, exact->second),
               FlightErrors(modes(), m_.end_)};
+  // What is 0 in truth is a number of that size at most.
+  const double unknown = 0x1p-96 * std::max(exact->first.cwiseAbs().maxCoeff(),
+                                            exact->second.cwiseAbs().maxCoeff());
+  const MatrixXd each = unknown * MatrixXd::Identity(m_.dof(), m_.dof()), none = 0.0 * each;
+  state.errors.add(modes(), modes().change(each, none).cwiseAbs().rowwise().sum() +
+                                modes().change(none, each).cwiseAbs().rowwise().sum());
   m_.flights_.pop_back();
   opens_ = begins_;
   begin(std::move(state));
@@ -134,8 +145,7 @@ void PiecewiseMotion::Builder::start() {
   for (std::size_t i = springs(); i < contacts_.size(); ++i) {
     const auto& contact = contacts_[i];
     closed[i] = contact.gap_at(problem_.start.u) < 0.0;
-    const VectorXd response =
-        m_.regimes_[0].derivative(1) * m_.regimes_[0].impulse(contact.direction);
+    const VectorXd response = m_.regimes_[0].velocity(m_.regimes_[0].impulse(contact.direction));
     stiffest_ = std::max(stiffest_,
                          std::sqrt(stiffnesses_[i - springs()] * contact.direction.dot(response)));
   }

@@ -91,6 +91,18 @@ FlightErrors PiecewiseMotion::errors_after(const Flight& flight, double s) const
   return errors;
 }
 
+namespace {
+
+// The rows by which u^(order) is seen in a state, some at a time: all of a fine mesh take gigabytes.
+void for_rows(const ForcedModes& modes, int order, auto&& function) {
+  constexpr Index most = 256;
+  const auto all = modes.system().dof();
+  for (Index first = 0; first < all; first += most)
+    function(first, modes.system().derivative(order, first, std::min(most, all - first)));
+}
+
+}  // namespace
+
 Kinematics PiecewiseMotion::error_bound(double t) const {
   const Index n = dof();
   const VectorXd least = VectorXd::Constant(n, has_bounds_ ? 0.0 : infinity);
@@ -110,10 +122,12 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
       load += (2.0 + force.frequency * t) * force.acceleration.cwiseAbs();
     }
     const auto raise = [&](VectorXd& to, int order, const VectorXd& more) {
-      const MatrixXd& rows = modes.derivative(order);
       const VectorXd rounding =
-          epsilon * double(n + 4) * (modes.derivative_size(order) * whole + more);
-      to = to.cwiseMax(errors.bounds(modes, rows) + rounding);
+          epsilon * double(n + 4) * (modes.derived_sizes(order, whole) + more);
+      for_rows(modes, order, [&](Index first, const MatrixXd& rows) {
+        auto some = to.segment(first, rows.rows());
+        some = some.cwiseMax(errors.bounds(modes, rows) + rounding.segment(first, rows.rows()));
+      });
     };
     raise(bound.u, 0, modes.offset().cwiseAbs());
     raise(bound.v, 1, VectorXd::Zero(n));
@@ -143,11 +157,14 @@ Kinematics PiecewiseMotion::envelope(double t) const {
       size.y[j] = size.rate[j] / omega;
   const auto of = [&](int order) {
     VectorXd most = (order == 0 ? 1.0 : 0.0) * modes.offset().cwiseAbs();
-    for (Index i = 0; i < dof(); ++i)
-      most[i] += modes.bound(modes.derivative(order).row(i).transpose(), size);
+    for_rows(modes, order, [&](Index first, const MatrixXd& rows) {
+      for (Index i = 0; i < rows.rows(); ++i)
+        most[first + i] += modes.bound(rows.row(i).transpose(), size);
+    });
     for (const auto& force : modes.forces()) {
-      const Eigen::VectorXcd u = modes.derivative(0) * force.steady;
-      most += std::pow(force.frequency, order) * u.cwiseAbs();
+      MatrixXd parts(2 * modes.dof(), 2);
+      parts << force.steady.real(), force.steady.imag();
+      most += std::pow(force.frequency, order) * modes.derived_states(0, parts).rowwise().norm();
     }
     return most;
   };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 namespace clackers::numerics {
 
@@ -152,7 +153,8 @@ std::optional<ModalSystem> ModalSystem::make(const MatrixXd& mass, const MatrixX
   for (const auto& mode : made.modes_)
     made.fastest_ = std::max({made.fastest_, mode.omega, 2.0 * std::abs(mode.sigma)});
   made.inverse_ = basis.transpose() * mass;
-  if (!made.rate_shapes_.isZero(0.0)) {
+  const bool is_coupled = !made.rate_shapes_.isZero(0.0);
+  if (is_coupled) {
     MatrixXd whole(2 * n, 2 * n);
     whole << made.derivative(0), made.derivative(1);
     MatrixXd both = MatrixXd::Zero(2 * n, 2 * n);
@@ -163,25 +165,21 @@ std::optional<ModalSystem> ModalSystem::make(const MatrixXd& mass, const MatrixX
     made.inverse_ = made.shapes_.transpose() * made.inverse_;
   }
   made.shapes_ = basis * made.shapes_;
-  made.rate_shapes_ = basis * made.rate_shapes_;
+  made.rate_shapes_ = is_coupled ? MatrixXd(basis * made.rate_shapes_) : MatrixXd();
   return made;
 }
 
-ModalSystem ModalSystem::undamped(const VectorXd& squares, const MatrixXd& shapes,
-                                  const MatrixXd& mass) {
-  ModalSystem made;
-  for (const double square : squares) made.modes_.emplace_back(0.0, square);
-  made.shapes_ = shapes;
-  made.rate_shapes_ = MatrixXd::Zero(shapes.rows(), shapes.cols());
-  made.inverse_ = shapes.transpose() * mass;
-  for (const auto& mode : made.modes_) made.fastest_ = std::max(made.fastest_, mode.omega);
-  return made;
+ModalSystem::ModalSystem(std::vector<Mode> modes, MatrixXd shapes, MatrixXd coordinates)
+    : modes_(std::move(modes)), shapes_(std::move(shapes)), inverse_(std::move(coordinates)) {
+  for (const auto& mode : modes_)
+    fastest_ = std::max({fastest_, mode.omega, 2.0 * std::abs(mode.sigma)});
 }
 
-MatrixXd ModalSystem::derivative(int order) const {
+MatrixXd ModalSystem::derivative(int order, Index first, Index count) const {
   const auto m = std::ssize(modes_);
-  MatrixXd rows(dof(), 2 * m);
-  rows << shapes_, rate_shapes_;
+  MatrixXd rows = MatrixXd::Zero(count, 2 * m);
+  rows.leftCols(m) = shapes_.middleRows(first, count);
+  if (rate_shapes_.size() > 0) rows.rightCols(m) = rate_shapes_.middleRows(first, count);
   for (; order > 0; --order)
     for (Index j = 0; j < m; ++j) {
       const auto& mode = modes_[std::size_t(j)];
@@ -253,9 +251,9 @@ ModalSystem ModalSystem::seen_through(const MatrixXd& basis, const MatrixXd& inv
   const Index n = inverse.cols(), m = std::ssize(modes_);
   seen.diagonal_ = false;
   seen.shapes_ = basis * shapes_;
-  seen.rate_shapes_ = basis * rate_shapes_;
   seen.inverse_ = inverse_ * inverse;
   if (!is_coupled()) return seen;
+  seen.rate_shapes_ = basis * rate_shapes_;
   seen.whole_inverse_.resize(2 * m, 2 * n);
   seen.whole_inverse_ << whole_inverse_.leftCols(m) * inverse,
       whole_inverse_.rightCols(m) * inverse;
@@ -271,7 +269,8 @@ void ModalSystem::add_amplitudes(std::span<const ModalState> start, std::span<do
     const double y_size = mode.omega > 0.0 ? z / mode.omega : std::abs(y);
     const double acceleration = std::hypot(2.0 * mode.sigma, mode.omega) * z;
     for (Index i = 0; i < dof(); ++i) {
-      const double shape = std::abs(shapes_(i, j)), rate_shape = std::abs(rate_shapes_(i, j));
+      const double shape = std::abs(shapes_(i, j));
+      const double rate_shape = is_coupled() ? std::abs(rate_shapes_(i, j)) : 0.0;
       u[std::size_t(i)] += shape * y_size + rate_shape * z;
       v[std::size_t(i)] += shape * z + rate_shape * acceleration;
     }

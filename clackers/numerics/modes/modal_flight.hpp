@@ -51,6 +51,7 @@ ModalState pushed(const Mode& mode, const ModalState& push, double s);
 /// Re x + (sigma/w) Im x and (Im x)/w.
 class ModalSystem {
  public:
+  ModalSystem() = default;
   /// Nothing where the mass is not positive definite, a number is not finite, or coupled modes have
   /// equal eigenvalues but not as many eigenvectors, so that no sum of modes is the motion (a matrix of
   /// eigenvectors with a condition above 1e5).
@@ -58,24 +59,27 @@ class ModalSystem {
                                          const Eigen::MatrixXd& damping,
                                          const Eigen::MatrixXd& stiffness);
 
-  /// The same without damping, of shapes known already, whose squares of frequencies these are.
-  static ModalSystem undamped(const Eigen::VectorXd& squares, const Eigen::MatrixXd& shapes,
-                              const Eigen::MatrixXd& mass);
+  /// Of modes that nothing couples and their shapes; y = coordinates u.
+  ModalSystem(std::vector<Mode> modes, Eigen::MatrixXd shapes, Eigen::MatrixXd coordinates);
 
   /// The motion u = basis q, whose coordinates q = inverse u move like this one.
   ModalSystem seen_through(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& inverse) const;
 
-  Eigen::Index dof() const { return shapes_.rows(); }
+  Eigen::Index dof() const { return shapes_.rows(); }  ///< of u; there may be fewer modes
   const std::vector<Mode>& modes() const { return modes_; }
   /// Columns; normalised with the mass matrix where the damping does not couple them.
   const Eigen::MatrixXd& shapes() const { return shapes_; }
-  const Eigen::MatrixXd& rate_shapes() const { return rate_shapes_; }
+  const Eigen::MatrixXd& rate_shapes() const { return rate_shapes_; }  ///< empty where they are 0
+  /// y by u, where damping does not couple the modes.
+  const Eigen::MatrixXd& coordinates() const { return inverse_; }
   /// Whether damping couples them.
   bool is_coupled() const { return whole_inverse_.size() > 0; }
   double fastest() const { return fastest_; }  ///< largest omega, or rate of decay [1/s]
 
   /// The derivative of u of this order is this matrix times (y_1, y_2, ..., y_1', y_2', ...).
-  Eigen::MatrixXd derivative(int order) const;
+  Eigen::MatrixXd derivative(int order) const { return derivative(order, 0, dof()); }
+  /// `count` rows of it from `first` on.
+  Eigen::MatrixXd derivative(int order, Eigen::Index first, Eigen::Index count) const;
   /// (y_1, y_2, ..., y_1', y_2', ...) are this matrix times (u, v).
   Eigen::MatrixXd inverse() const;
 

@@ -26,7 +26,7 @@ ModalForm::ModalForm(const ModalSystem& system, std::span<const double> b,
     for (std::size_t i = 0; i < b.size(); ++i) {
       const auto row = Eigen::Index(i), column = Eigen::Index(j);
       const double shape = system.shapes()(row, column);
-      const double rate_shape = system.rate_shapes()(row, column);
+      const double rate_shape = system.is_coupled() ? system.rate_shapes()(row, column) : 0.0;
       y_part += b[i] * shape;
       rate_part += b[i] * rate_shape;
       if (d.empty()) continue;
