@@ -46,7 +46,7 @@ Costs costs(int n) {
   Costs costs;
   long long none = 0;
   costs.build = seconds(1e-3, none);
-  const double end = n < 500 ? 200.0 : 60.0;
+  const double end = n < 500 ? 200.0 : 1000.0;
   costs.flight = (seconds(end, costs.flights) - costs.build) / double(costs.flights);
   const exact::PiecewiseMotion motion(chain(n, 1.0));
   const int times = n < 500 ? 1000 : 20;

@@ -123,7 +123,7 @@ TEST(BarCases, MeshesMoveAsTheirClosedModes) {
   Box box(91);
   for (int trial = 0; trial < trials(6); ++trial) {
     SCOPED_TRACE(testing::Message() << "seed 91, trial " << trial);
-    const int n = trial == 0 ? 150 : int(box.uniform(2.0, 17.0));
+    const int n = trial == 0 ? 150 : trial == 1 ? 1500 : int(box.uniform(2.0, 17.0));
     const bool consistent = box.one_in(2);
     const HeldModes modes(n, consistent);
     const double V = box.decades(-1.0, 1.0), L = box.decades(-1.0, 1.0), E = box.decades(-1.0, 1.0),
@@ -146,7 +146,7 @@ TEST(BarCases, MeshesMoveAsTheirClosedModes) {
       const double s = box.uniform(0.02, 1.8), t = d / V + s * tau;
       EXPECT_GT(modes.force(s), -1e-9);
       const auto state = mesh.motion->at(t, Side::right), bound = mesh.motion->error_bound(t);
-      EXPECT_LT(bound.u.maxCoeff(), 1e-9 * (d + V * tau));
+      EXPECT_LT(bound.u.maxCoeff(), (n > 1000 ? 1e-8 : 1e-9) * (d + V * tau));
       for (int node = 1; node <= n; ++node)
         EXPECT_NEAR(state.u[node], -d + V * tau * modes.u(node, s),
                     bound.u[node] + 1e-13 * (d + V * tau));

@@ -39,7 +39,7 @@ class Digits(CommandTest):
         self.assertEqual([row["u1"], row["v1"], row["a1"]], ["0", "0", "0"])
         # Between the last impact that is resolved and rest there are infinitely many.
         with open(self.path("t"), "w") as file:
-            file.write("4.0637124\n")
+            file.write("4.0637125\n")
         self.refused("respond", "ball", "--times", self.path("t"), "--digits", "40",
                      code="no-enclosure", says=("rest",))
 

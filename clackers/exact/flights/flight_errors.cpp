@@ -13,23 +13,36 @@ using Eigen::Index;
 using Matrix = FlightErrors::Matrix;
 using Vector = FlightErrors::Vector;
 
+namespace {
+
+// What y and y' of each mode become after s seconds: factors of y, then of y'.
+std::pair<Vector, Vector> factors(const ForcedModes& modes, double s) {
+  const Index n = modes.dof();
+  Vector unit = Vector::Zero(2 * n);
+  unit.head(n).setOnes();
+  return {modes.advanced(unit, s, 0.0), modes.advanced(Vector::Ones(2 * n) - unit, s, 0.0)};
+}
+
+}  // namespace
+
 void FlightErrors::map(auto&& linear) {
-  columns_ = linear(columns_);
+  columns_ = linear(std::move(columns_));
   if (squares_.size() == 0) return;
-  const Matrix half = linear(squares_);
-  squares_ = linear(half.transpose());
+  Matrix half = linear(std::move(squares_));
+  half.transposeInPlace();
+  squares_ = linear(std::move(half));
 }
 
 void FlightErrors::carry(const ForcedModes& modes, double s) {
   const Index n = modes.dof();
-  Vector unit = Vector::Zero(2 * n);
-  unit.head(n).setOnes();
-  const Vector from_value = modes.advanced(unit, s, 0.0),
-               from_rate = modes.advanced(Vector::Ones(2 * n) - unit, s, 0.0);
-  map([&](const Matrix& x) {
-    Matrix later = from_value.asDiagonal() * x.topRows(n).replicate(2, 1);
-    later += from_rate.asDiagonal() * x.bottomRows(n).replicate(2, 1);
-    return later;
+  const auto [of_value, of_rate] = factors(modes, s);
+  map([&](Matrix x) {
+    const Matrix values = x.topRows(n);
+    x.topRows(n) = of_value.head(n).asDiagonal() * values;
+    x.topRows(n) += of_rate.head(n).asDiagonal() * x.bottomRows(n);
+    x.bottomRows(n).array().colwise() *= of_rate.tail(n).array();
+    x.bottomRows(n) += of_value.tail(n).asDiagonal() * values;
+    return x;
   });
   ball_ = carried(modes, ball_, s);
 }
@@ -92,11 +105,13 @@ void FlightErrors::change_ball(const ForcedModes& from, const ForcedModes& to,
                                const std::vector<Vector>& opened) {
   const Index n = from.dof();
   const auto old = std::exchange(ball_, {});
-  Vector omega(n), is_soft(n);
+  Vector omega = Vector::Zero(n), softness = Vector::Zero(n), is_hard = Vector::Zero(n);
   for (Index j = 0; j < n; ++j) {
     const auto& mode = from.system().modes()[std::size_t(j)];
-    is_soft[j] = this->is_soft(mode) ? 1.0 : 0.0;
-    omega[j] = this->is_soft(mode) ? infinity : mode.omega;
+    if (is_soft(mode)) continue;
+    is_hard[j] = 1.0;
+    omega[j] = mode.omega;
+    softness[j] = 1.0 / mode.omega_square;
   }
   const auto add_apart = [&](const Vector& y, const Vector& rate) {
     Vector sizes(2 * n);
@@ -109,11 +124,9 @@ void FlightErrors::change_ball(const ForcedModes& from, const ForcedModes& to,
     }
     add_columns(columns);
   };
+  const Vector is_soft = Vector::Ones(n) - is_hard;
   add_apart(old.soft * is_soft, old.soft_rate * is_soft);
-  const Vector is_hard = Vector::Ones(n) - is_soft;
-  if (to.system().is_coupled())
-    return add_apart(old.hard * is_hard, old.hard * (omega.array() * is_hard.array()).matrix());
-  const Vector softness = omega.cwiseAbs2().cwiseInverse();
+  if (to.system().is_coupled()) return add_apart(old.hard * is_hard, old.hard * omega);
   Matrix forces(n, 0);  // orthonormal by the softness
   for (const auto& row : opened) {
     Vector force = row.head(n).cwiseProduct(is_hard);
@@ -133,10 +146,7 @@ void FlightErrors::change_ball(const ForcedModes& from, const ForcedModes& to,
     const Vector y = to.displacement_of_mode(j, from).head(n).cwiseProduct(is_hard);
     const Vector rate = y - softness.cwiseProduct(forces * (forces.transpose() * y));
     ball_.soft = std::hypot(ball_.soft, old.hard * y.norm());
-    ball_.soft_rate = std::hypot(
-        ball_.soft_rate,
-        old.hard *
-            (is_soft.array() > 0.0).select(0.0, omega.cwiseProduct(rate).array()).matrix().norm());
+    ball_.soft_rate = std::hypot(ball_.soft_rate, old.hard * omega.cwiseProduct(rate).norm());
   }
 }
 
@@ -145,9 +155,10 @@ void FlightErrors::pass(const ForcedModes& modes, const Impact& impact) {
     const Vector sizes = bounds_of(ball_, modes, rows.transpose()).array() + more;
     return Matrix(directions * sizes.asDiagonal());
   };
-  map([&](const Matrix& x) {
+  map([&](Matrix x) {
     const Matrix times = impact.gaps.transpose() * x, impulses = impact.rates.transpose() * x;
-    return Matrix(x + impact.jumps * times - impact.impulses * impulses);
+    x += impact.jumps * times - impact.impulses * impulses;
+    return x;
   });
   add_columns(columns_of(impact.jumps, impact.gaps, impact.rounding));
   if (!ball_.empty()) add_columns(columns_of(impact.impulses, impact.rates, 0.0));
@@ -176,16 +187,27 @@ Vector FlightErrors::bounds_of(const Ball& ball, const ForcedModes& modes,
          ball.soft_rate * soft_rate.cwiseSqrt();
 }
 
-Vector FlightErrors::bounds(const ForcedModes& modes, const Matrix& rows) const {
-  Vector bound = bounds_of(ball_, modes, rows) +
-                 numerics::product_of_halves(rows, columns_).rowwise().lpNorm<1>();
+Vector FlightErrors::bounds(const ForcedModes& modes, const Matrix& rows, double s) const {
+  if (s > 0.0) {
+    const Index n = modes.dof();
+    const auto [of_value, of_rate] = factors(modes, s);
+    Matrix before(rows.rows(), 2 * n);
+    before.leftCols(n) = rows.leftCols(n) * of_value.head(n).asDiagonal();
+    before.leftCols(n) += rows.rightCols(n) * of_value.tail(n).asDiagonal();
+    before.rightCols(n) = rows.leftCols(n) * of_rate.head(n).asDiagonal();
+    before.rightCols(n) += rows.rightCols(n) * of_rate.tail(n).asDiagonal();
+    return bounds_of_columns(before) + bounds_of(carried(modes, ball_, s), modes, rows);
+  }
+  return bounds_of_columns(rows) + bounds_of(ball_, modes, rows);
+}
+
+Vector FlightErrors::bounds_of_columns(const Matrix& rows) const {
+  Vector bound = numerics::product_of_halves(rows, columns_).rowwise().lpNorm<1>();
   if (squares_.size() > 0)
-    bound += numerics::product_of_halves(rows, count_ * squares_)
-                 .cwiseProduct(rows)
-                 .rowwise()
-                 .sum()
-                 .cwiseMax(0.0)
-                 .cwiseSqrt();
+    bound +=
+        (count_ * numerics::product_of_halves(rows, squares_).cwiseProduct(rows).rowwise().sum())
+            .cwiseMax(0.0)
+            .cwiseSqrt();
   return bound;
 }
 

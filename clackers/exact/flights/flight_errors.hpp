@@ -41,8 +41,8 @@ class FlightErrors {
   void pass(const ForcedModes& modes, const Impact& impact);
   void enlarge(double factor);
 
-  /// Bounds on |row z| for each row, and on what it is up to s seconds later.
-  Vector bounds(const ForcedModes& modes, const Matrix& rows) const;
+  /// Bounds on |row z| for each row, s seconds later, and up to then.
+  Vector bounds(const ForcedModes& modes, const Matrix& rows, double s = 0.0) const;
   Vector bounds_until(const ForcedModes& modes, const Matrix& rows, double s) const;
   double bytes() const { return 8.0 * double(columns_.size() + squares_.size()); }
 
@@ -58,6 +58,7 @@ class FlightErrors {
   /// Of a mode whose displacement is bounded by its start and its rate.
   bool is_soft(const numerics::Mode& mode) const { return mode.omega * seconds_ <= 1.0; }
   Ball carried(const ForcedModes& modes, Ball ball, double s) const;
+  Vector bounds_of_columns(const Matrix& rows) const;
   Vector bounds_of(const Ball& ball, const ForcedModes& modes, const Matrix& rows) const;
   void change_ball(const ForcedModes& from, const ForcedModes& to,
                    const std::vector<Vector>& opened);

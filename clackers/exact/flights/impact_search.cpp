@@ -28,9 +28,7 @@ double PiecewiseMotion::Builder::error_of(std::size_t i, double s) const {
   const double rounding = modes().rounding(seen, modes().sizes(flight().free, s), flight().t + s);
   if (!m_.has_bounds_) return rounding;
   const VectorXd row = seen.by_state.col(0);
-  auto errors = flight().errors;
-  errors.carry(modes(), s);
-  return errors.bounds(modes(), row.transpose())[0] +
+  return flight().errors.bounds(modes(), row.transpose(), s)[0] +
          row.cwiseAbs().dot(modes().local_errors(flight().free, flight().t, s)) + rounding;
 }
 

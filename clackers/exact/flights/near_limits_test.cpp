@@ -83,13 +83,13 @@ bool add_limit(model::ImpactProblem<>& problem, Box& box, bool at_impact) {
   return b.dot(problem.start.u) > problem.contacts.back().gap;
 }
 
-struct Tally {
+struct Counts {
   int accepted = 0, values = 0;
   double worst = 0.0;
   std::map<std::string, int> refused;
 };
 
-void follow(const PiecewiseMotion& motion, TaylorSimulator simulator, Tally& tally) {
+void follow(const PiecewiseMotion& motion, TaylorSimulator simulator, Counts& tally) {
   long long k = 0;
   for (double t = 0.6; t <= motion.end(); t += 0.6) {
     while (const auto found = simulator.next(t)) {
@@ -126,7 +126,7 @@ void follow(const PiecewiseMotion& motion, TaylorSimulator simulator, Tally& tal
 }
 
 // At the time that a refusal names, the contacts that it names are closed or nearly so.
-void check_reason(const std::string& text, const model::ImpactProblem<>& problem, Tally& tally) {
+void check_reason(const std::string& text, const model::ImpactProblem<>& problem, Counts& tally) {
   static const std::regex contacts(R"(contacts? (\d+)(?: and (\d+))?)"), time(R"(t = ([-+.e\d]+))");
   std::smatch who, when;
   ASSERT_TRUE(std::regex_search(text, who, contacts) && std::regex_search(text, when, time))
@@ -155,7 +155,7 @@ void check_reason(const std::string& text, const model::ImpactProblem<>& problem
 
 TEST(PiecewiseMotion, NearItsLimitsIsTheSimulationOrRefusedWithItsReason) {
   Box box(31);
-  Tally tally;
+  Counts tally;
   int members = 0;
   for (int trial = 0; members < trials(6) && trial < 100 * trials(6); ++trial) {
     SCOPED_TRACE(testing::Message() << "seed 31, trial " << trial);

@@ -124,8 +124,8 @@ bool PiecewiseMotion::Builder::sharpen() {
   State state{flight().regime, flight().t, modes().state(exact->first, exact->second),
               FlightErrors(modes(), m_.end_)};
   // What is 0 in truth is a number of that size at most.
-  const double unknown = 0x1p-96 * std::max(exact->first.cwiseAbs().maxCoeff(),
-                                            exact->second.cwiseAbs().maxCoeff());
+  const double unknown =
+      0x1p-96 * std::max(exact->first.cwiseAbs().maxCoeff(), exact->second.cwiseAbs().maxCoeff());
   const MatrixXd each = unknown * MatrixXd::Identity(m_.dof(), m_.dof()), none = 0.0 * each;
   state.errors.add(modes(), modes().change(each, none).cwiseAbs().rowwise().sum() +
                                 modes().change(none, each).cwiseAbs().rowwise().sum());

@@ -112,9 +112,10 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
   for (auto k = flight_at(t, Side::left); k <= last; ++k) {
     const auto& flight = flights_[k];
     const auto& modes = this->modes(flight);
-    const auto errors = errors_after(flight, t - flight.t);
+    const double s = t - flight.t;
+    const VectorXd local = modes.local_errors(flight.free, flight.t, s);
     // What is summed, for the rounding of the sum.
-    const auto size = modes.sizes(flight.free, t - flight.t);
+    const auto size = modes.sizes(flight.free, s);
     VectorXd whole(2 * modes.dof()), load = VectorXd::Zero(n);
     whole << size.y, size.rate;
     for (const auto& force : modes.forces()) {
@@ -126,7 +127,8 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
           epsilon * double(n + 4) * (modes.derived_sizes(order, whole) + more);
       for_rows(modes, order, [&](Index first, const MatrixXd& rows) {
         auto some = to.segment(first, rows.rows());
-        some = some.cwiseMax(errors.bounds(modes, rows) + rounding.segment(first, rows.rows()));
+        some = some.cwiseMax(flight.errors.bounds(modes, rows, s) + rows.cwiseAbs() * local +
+                             rounding.segment(first, rows.rows()));
       });
     };
     raise(bound.u, 0, modes.offset().cwiseAbs());

@@ -9,6 +9,7 @@
 
 #include "clackers/base/codes.hpp"
 #include "clackers/base/constants.hpp"
+#include "clackers/judge/convergence/claim_comparison.hpp"
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 #include "clackers/judge/convergence/ladder_fit.hpp"
 
@@ -74,11 +75,6 @@ bool stopped_by_printing(const LadderFit& fit, const measure::RunScore& finest,
   return printed &&
          (fit.behaviour == Behaviour::exact || fit.behaviour == Behaviour::stagnating ||
           fit.reason == Code("too-few-levels").name() || fit.reason == Code("noise-floor").name());
-}
-
-bool shows_a_line(const LadderFit& fit) {
-  return fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::reduced ||
-         fit.behaviour == Behaviour::irregular;
 }
 
 // Whether errors that grow as steps shrink are rounding: of a method that divides differences of displacements
@@ -154,25 +150,6 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
   return fit;
 }
 
-// Of a line or an envelope whose order is off by more than allowed, and of one that is not.
-Verdict compare_order(const LadderFit& fit, double claimed, double tolerance) {
-  const double off = std::abs(fit.order - claimed);
-  // An envelope contradicts where its whole interval lies outside what is allowed.
-  const double reach = fit.on_envelope ? fit.spread + tolerance * claimed : fit.spread;
-  if (off > tolerance * claimed) return off > reach ? Verdict::disagrees : Verdict::undecided;
-  const bool few = fit.last_level - fit.first_level + 1 < enough_octaves;
-  const bool of_envelope = fit.on_envelope || tolerance == envelope_order_tolerance;
-  const double most = !of_envelope ? line_spread : few ? envelope_spread : wide_envelope_spread;
-  return fit.spread > most * claimed ? Verdict::undecided : Verdict::agrees;
-}
-
-// Whether errors are those of contacts of few steps, whose upper envelope falls while some are
-// resolved by chance, whatever floor follows.
-bool is_above_floor(const LadderFit& fit, const JudgeContext& facts) {
-  constexpr double enough_steps = 128.0;
-  return facts.contact_time > 0.0 && facts.contact_time < enough_steps * fit.smallest_step;
-}
-
 // The first level behind all those at which more than a quarter of the runs miss impacts or have some too
 // many while errors are not far below the motion; 0 where the finest one is such a level.
 int first_counted(const measure::Ladder& ladder) {
@@ -198,78 +175,11 @@ LadderFit from_level(const measure::Ladder& ladder, int first, const FitContext&
   return fine;
 }
 
-// Whether the order of a line is that of its coarse range: errors not far below the motion itself,
-// which fall faster from level to level.
-bool is_still_coarse(const LadderFit& fit) {
-  constexpr double large = 0.1, least_rise = 0.05;
-  const auto rate = [&](int i) {
-    const auto at = std::size_t(i);
-    return std::log(fit.errors[at] / fit.errors[at + 1]) /
-           std::log(fit.steps[at] / fit.steps[at + 1]);
-  };
-  const int last = fit.last_level - 1;
-  return fit.first_level < last && std::size_t(fit.last_level) < fit.errors.size() &&
-         fit.errors.back() > large && rate(last) > rate(fit.first_level) + least_rise;
-}
-
-Verdict compare_floor(const LadderFit& fit, const Claim& claim, const JudgeContext& facts) {
-  const bool has_floor =
-      fit.behaviour == Behaviour::stagnating ||
-      (fit.floor_step > 0.0 && fit.reason == claim.reason && !claim.reason.empty());
-  // As large as the motion, and of no stiffness.
-  if (fit.reason == Code("simultaneous-impacts").name() && claim.reason.empty())
-    return Verdict::agrees;
-  // Errors that fall have no floor; of no order that a method has, they bend towards one or still come
-  // from their coarse range.
-  if (!has_floor)
-    return shows_a_line(fit) && (fit.order < lowest_real_order || is_above_floor(fit, facts))
-               ? Verdict::undecided
-               : Verdict::disagrees;
-  return claim.reason.empty() || fit.reason == claim.reason ? Verdict::agrees : Verdict::disagrees;
-}
-
-Verdict compare(const LadderFit& fit, const Claim& claim, const JudgeContext& facts) {
-  if (claim.behaviour == Behaviour::undecided) return Verdict::not_claimed;
-  if (fit.behaviour == Behaviour::undecided) return Verdict::undecided;
-  if (claim.behaviour == Behaviour::stagnating && fit.behaviour != Behaviour::exact)
-    return compare_floor(fit, claim, facts);
-  if (fit.reason == Code("printed-digits").name() && !fit.has_line) return Verdict::undecided;
-  if (fit.behaviour == Behaviour::exact)
-    return claim.behaviour == Behaviour::exact ? Verdict::agrees : Verdict::undecided;
-  const bool line = fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::reduced;
-  const bool line_claimed =
-      claim.behaviour == Behaviour::proper || claim.behaviour == Behaviour::reduced;
-  if (claim.behaviour == Behaviour::irregular && (line || fit.behaviour == Behaviour::irregular))
-    return compare_order(fit, claim.order, envelope_order_tolerance);
-  if (line && line_claimed) {
-    const double tolerance = facts.by_tolerance ? tolerance_proportional : order_tolerance;
-    const auto found = compare_order(fit, claim.order, tolerance);
-    if (found == Verdict::disagrees && fit.order < claim.order && is_still_coarse(fit))
-      return Verdict::undecided;
-    // Reduced claims less than proper; both are told by the order alone.
-    return found == Verdict::agrees && fit.behaviour != claim.behaviour && !facts.by_tolerance
-               ? Verdict::disagrees
-               : found;
-  }
-  return fit.behaviour == claim.behaviour ? Verdict::agrees : Verdict::disagrees;
-}
-
 // Of velocities only the order is claimed, that of a line or of an envelope.
 Evidence velocity_evidence(const LadderFit& fit, const Claim& claim, const JudgeContext& facts) {
   const Claim line{shows_a_line(fit) ? fit.behaviour : Behaviour::proper, claim.velocity_order, {}};
   return evidence("velocity-order", compare(fit, line, facts),
                   {fit.order, fit.spread, claim.velocity_order});
-}
-
-Mismatch mismatch_of(const LadderFit& fit, const Claim& claim, const JudgeContext& facts) {
-  if (compare(fit, claim, facts) != Verdict::disagrees) return Mismatch::evidence;
-  const bool order_claimed = claim.order > 0.0;
-  const bool alike = fit.behaviour == claim.behaviour ||
-                     (fit.behaviour == Behaviour::reduced && claim.behaviour == Behaviour::proper);
-  if (claim.behaviour == Behaviour::stagnating && fit.behaviour == Behaviour::stagnating)
-    return Mismatch::floor_reason;
-  if (!alike || !order_claimed) return Mismatch::behaviour;
-  return fit.order < claim.order ? Mismatch::lower_order : Mismatch::higher_order;
 }
 
 // Whether displacements converge faster than a claim that stands: velocities are as claimed, whose errors
