@@ -35,7 +35,8 @@ void FlightErrors::map(auto&& linear) {
 
 void FlightErrors::carry(const ForcedModes& modes, double s) {
   const Index n = modes.dof();
-  const auto [of_value, of_rate] = factors(modes, s);
+  const auto of = factors(modes, s);
+  const Vector &of_value = of.first, &of_rate = of.second;
   map([&](Matrix x) {
     const Matrix values = x.topRows(n);
     x.topRows(n) = of_value.head(n).asDiagonal() * values;
