@@ -26,11 +26,11 @@ std::pair<Vector, Vector> factors(const ForcedModes& modes, double s) {
 }  // namespace
 
 void FlightErrors::map(auto&& linear) {
-  columns_ = linear(std::move(columns_));
+  if (columns_.cols() > 0) columns_ = linear(std::move(columns_));
   if (squares_.size() == 0) return;
   Matrix half = linear(std::move(squares_));
   half.transposeInPlace();
-  squares_ = linear(std::move(half));
+  squares_ = half.size() > 0 ? linear(std::move(half)) : Matrix();
 }
 
 void FlightErrors::carry(const ForcedModes& modes, double s) {
@@ -98,6 +98,7 @@ void FlightErrors::change(const ForcedModes& from, const ForcedModes& to,
   map([&](const Matrix& x) {
     return to.change(from.derived_states(0, x), from.derived_states(1, x));
   });
+  columns_.conservativeResize(2 * to.dof(), Eigen::NoChange);
 }
 
 // With M-orthonormal modes the ball is u' M u + v' M K^-1 M v. Springs that close and constraints lessen
@@ -138,9 +139,11 @@ void FlightErrors::change_ball(const ForcedModes& from, const ForcedModes& to,
     forces.conservativeResize(Eigen::NoChange, forces.cols() + 1);
     forces.rightCols(1) = force / size;
   }
-  Matrix columns = Matrix::Zero(2 * n, forces.cols());
-  columns.bottomRows(n) = old.hard * forces;
-  add_columns(columns);
+  if (forces.cols() > 0) {
+    Matrix columns = Matrix::Zero(2 * n, forces.cols());
+    columns.bottomRows(n) = old.hard * forces;
+    add_columns(columns);
+  }
   ball_.hard = old.hard;
   for (Index j = 0; j < to.dof(); ++j) {
     if (!this->is_soft(to.system().modes()[std::size_t(j)])) continue;
@@ -203,7 +206,9 @@ Vector FlightErrors::bounds(const ForcedModes& modes, const Matrix& rows, double
 }
 
 Vector FlightErrors::bounds_of_columns(const Matrix& rows) const {
-  Vector bound = numerics::product_of_halves(rows, columns_).rowwise().lpNorm<1>();
+  Vector bound = Vector::Zero(rows.rows());
+  if (columns_.cols() > 0)
+    bound = numerics::product_of_halves(rows, columns_).rowwise().lpNorm<1>();
   if (squares_.size() > 0)
     bound +=
         (count_ * numerics::product_of_halves(rows, squares_).cwiseProduct(rows).rowwise().sum())
@@ -214,7 +219,8 @@ Vector FlightErrors::bounds_of_columns(const Matrix& rows) const {
 
 Vector FlightErrors::bounds_until(const ForcedModes& modes, const Matrix& rows, double s) const {
   Vector bound = bounds_of(carried(modes, ball_, s), modes, rows);
-  Vector sizes = columns_.rowwise().lpNorm<1>();
+  Vector sizes = Vector::Zero(columns_.rows());
+  if (columns_.cols() > 0) sizes = columns_.rowwise().lpNorm<1>();
   if (squares_.size() > 0) sizes += (count_ * squares_.diagonal()).cwiseSqrt();
   const auto later = modes.sizes(sizes, s, 0.0);
   for (Index i = 0; i < rows.rows(); ++i) bound[i] += modes.bound(rows.row(i).transpose(), later);

@@ -15,7 +15,7 @@ using Vector = ForcedModes::Vector;
 // What the modes leave of the equations of the structure and of their own inverse, and the rounding of
 // that.
 void ForcedModes::find_residuals() {
-  if (square_errors_.size() > 0) return;
+  if (square_errors_.size() > 0 || dof() == 0) return;
   const Index n = dof(), all = mass_.rows();
   const double rounding = 2.0 * double(all) * epsilon;
   std::vector<Matrix> derivatives, sizes;

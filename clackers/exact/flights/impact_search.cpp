@@ -102,7 +102,7 @@ std::vector<double> PiecewiseMotion::Builder::levels(double s) const {
   std::vector<double> level;
   for (std::size_t i = 0; i < springs(); ++i)
     level.push_back(certain_gap * modes().rounding(watched(i), size, flight().t + s));
-  if (!m_.has_bounds_) return level;
+  if (!m_.has_bounds_ || modes().dof() == 0) return level;
   MatrixXd rows(springs(), 2 * modes().dof());
   for (std::size_t i = 0; i < springs(); ++i)
     rows.row(Index(i)) = watched(i).by_state.col(0).transpose();
