@@ -495,6 +495,7 @@ TEST(BarCases, AreRefusedWithTheReason) {
   EXPECT_REFUSED(make("bar-wall", {{"elements", 2.5}}), "not-whole", "whole");
   EXPECT_REFUSED(make("bar-wall", {{"elements", 1.0}}), "out-of-range", "elements");
   EXPECT_REFUSED(make("bar-wall", {{"elements", 4001.0}}), "out-of-range", "4000");
+  EXPECT_REFUSED(make("two-bars", {{"elements", 2001.0}}), "out-of-range", "2000");
   EXPECT_REFUSED(make("string-on-obstacle", {{"elements", 201.0}}), "out-of-range", "--path");
   EXPECT_REFUSED(make_mesh("bar-wall", {{"elements", 4001.0}}), "out-of-range", "4000");
   const auto large = make_mesh("string-on-obstacle", {{"elements", 201.0}});

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "clackers/base/constants.hpp"
 #include "clackers/exact/flights/forced_modes.hpp"
@@ -11,6 +12,60 @@ namespace clackers::exact {
 using Eigen::Index;
 using Matrix = ForcedModes::Matrix;
 using Vector = ForcedModes::Vector;
+
+namespace {
+
+// A product A x with the sizes of the entries of A, which are not copied.
+Vector product_of_sizes(const Matrix& a, const Vector& x) {
+  Vector y = Vector::Zero(a.rows());
+  for (Index j = 0; j < a.cols(); ++j) y += a.col(j).cwiseAbs() * x[j];
+  return y;
+}
+Vector transposed_product_of_sizes(const Matrix& a, const Vector& x) {
+  Vector y(a.cols());
+  for (Index j = 0; j < a.cols(); ++j) y[j] = a.col(j).cwiseAbs().dot(x);
+  return y;
+}
+
+}  // namespace
+
+Vector ForcedModes::derived_sizes(int order, const Vector& z) const {
+  const Index n = dof();
+  Vector y = z.head(n), rate = z.tail(n);
+  for (; order > 0; --order)
+    for (Index j = 0; j < n; ++j) {
+      const auto& mode = system_.modes()[std::size_t(j)];
+      y[j] = std::abs(mode.omega_square) * y[j] + 2.0 * std::abs(mode.sigma) * rate[j];
+      std::swap(y[j], rate[j]);
+    }
+  Vector u = product_of_sizes(system_.shapes(), y);
+  if (system_.is_coupled()) u += product_of_sizes(system_.rate_shapes(), rate);
+  return onto_.sizes(u);
+}
+
+Vector ForcedModes::row_of_sizes(int order, const Vector& direction) const {
+  const Index n = dof();
+  Vector row = Vector::Zero(2 * n);
+  if (direction.isZero(0.0)) return row;
+  const Vector sizes = onto_.sizes_transposed(direction.cwiseAbs());
+  row.head(n) = transposed_product_of_sizes(system_.shapes(), sizes);
+  if (system_.is_coupled()) row.tail(n) = transposed_product_of_sizes(system_.rate_shapes(), sizes);
+  for (; order > 0; --order)
+    for (Index j = 0; j < n; ++j) {
+      const auto& mode = system_.modes()[std::size_t(j)];
+      row[j] += 2.0 * std::abs(mode.sigma) * row[n + j];
+      row[n + j] *= std::abs(mode.omega_square);
+      std::swap(row[j], row[n + j]);
+    }
+  return row;
+}
+
+Vector ForcedModes::impulse_sizes(const Vector& impulse) const {
+  if (system_.is_coupled()) return product_of_sizes(impulse_response_, impulse);
+  Vector z = Vector::Zero(2 * dof());
+  z.tail(dof()) = transposed_product_of_sizes(system_.shapes(), impulse);
+  return z;
+}
 
 // What the modes leave of the equations of the structure and of their own inverse, and the rounding of
 // that.

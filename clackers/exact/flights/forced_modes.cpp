@@ -24,18 +24,6 @@ using Complex = std::complex<double>;
 
 namespace {
 
-// A product A x with the sizes of the entries of A, which are not copied.
-Vector product_of_sizes(const Matrix& a, const Vector& x) {
-  Vector y = Vector::Zero(a.rows());
-  for (Index j = 0; j < a.cols(); ++j) y += a.col(j).cwiseAbs() * x[j];
-  return y;
-}
-Vector transposed_product_of_sizes(const Matrix& a, const Vector& x) {
-  Vector y(a.cols());
-  for (Index j = 0; j < a.cols(); ++j) y[j] = a.col(j).cwiseAbs().dot(x);
-  return y;
-}
-
 std::optional<numerics::TridiagonalModes> modes_without_defect(
     const model::ImpactProblem<>& problem, const Basis& onto, const Matrix& stiffness_rest) {
   const auto& s = problem.system;
@@ -156,7 +144,7 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
     force.steady[n + j] = turn * force.steady[j] - g[j];
   }
   if (square_errors_.size() > 0) {
-    force.defect_per_time = 2.0 * double(n + 4) * epsilon * impulses(applied.cwiseAbs(), true);
+    force.defect_per_time = 2.0 * double(n + 4) * epsilon * impulse_sizes(applied.cwiseAbs());
     for (Index j = 0; j < n; ++j)
       force.defect_per_time[n + j] +=
           4.0 * epsilon * (system_.modes()[std::size_t(j)].omega_square + frequency * frequency) *
@@ -173,7 +161,7 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
   // What the force itself rounds, where it is that of an offset.
   if (frequency == 0.0)
     force.defect_per_time += 2.0 * double(n + 4) * epsilon *
-                             impulses(Sparse(stiffness_.cwiseAbs()) * offset_.cwiseAbs(), true);
+                             impulse_sizes(Sparse(stiffness_.cwiseAbs()) * offset_.cwiseAbs());
   forces_.push_back(std::move(force));
 }
 
@@ -202,20 +190,6 @@ Matrix ForcedModes::derived_states(int order, const Matrix& z) const {
   return u;
 }
 
-Vector ForcedModes::derived_sizes(int order, const Vector& z) const {
-  const Index n = dof();
-  Vector y = z.head(n), rate = z.tail(n);
-  for (; order > 0; --order)
-    for (Index j = 0; j < n; ++j) {
-      const auto& mode = system_.modes()[std::size_t(j)];
-      y[j] = std::abs(mode.omega_square) * y[j] + 2.0 * std::abs(mode.sigma) * rate[j];
-      std::swap(y[j], rate[j]);
-    }
-  Vector u = product_of_sizes(system_.shapes(), y);
-  if (system_.is_coupled()) u += product_of_sizes(system_.rate_shapes(), rate);
-  return onto_.sizes(u);
-}
-
 Vector ForcedModes::row(int order, const Vector& direction) const {
   const Index n = dof();
   Vector row = Vector::Zero(2 * n);
@@ -223,23 +197,6 @@ Vector ForcedModes::row(int order, const Vector& direction) const {
   row.head(n) = system_.shapes().transpose() * direction;
   if (system_.is_coupled()) row.tail(n) = system_.rate_shapes().transpose() * direction;
   for (; order > 0; --order) row = derived(row);
-  return row;
-}
-
-Vector ForcedModes::row_of_sizes(int order, const Vector& direction) const {
-  const Index n = dof();
-  Vector row = Vector::Zero(2 * n);
-  if (direction.isZero(0.0)) return row;
-  const Vector sizes = onto_.sizes_transposed(direction.cwiseAbs());
-  row.head(n) = transposed_product_of_sizes(system_.shapes(), sizes);
-  if (system_.is_coupled()) row.tail(n) = transposed_product_of_sizes(system_.rate_shapes(), sizes);
-  for (; order > 0; --order)
-    for (Index j = 0; j < n; ++j) {
-      const auto& mode = system_.modes()[std::size_t(j)];
-      row[j] += 2.0 * std::abs(mode.sigma) * row[n + j];
-      row[n + j] *= std::abs(mode.omega_square);
-      std::swap(row[j], row[n + j]);
-    }
   return row;
 }
 
@@ -255,13 +212,10 @@ Matrix ForcedModes::change(const Matrix& u, const Matrix& v) const {
   return z;
 }
 
-Vector ForcedModes::impulses(const Vector& direction, bool of_sizes) const {
-  if (system_.is_coupled())
-    return of_sizes ? product_of_sizes(impulse_response_, direction)
-                    : Vector(impulse_response_ * direction);
+Vector ForcedModes::impulse(const Vector& direction) const {
+  if (system_.is_coupled()) return impulse_response_ * direction;
   Vector z = Vector::Zero(2 * dof());
-  z.tail(dof()) = of_sizes ? transposed_product_of_sizes(system_.shapes(), direction)
-                           : Vector(system_.shapes().transpose() * direction);
+  z.tail(dof()) = system_.shapes().transpose() * direction;
   return z;
 }
 

@@ -86,7 +86,7 @@ class ForcedModes {
 
   Vector state(const Vector& u, const Vector& v) const { return change(u - offset_, v); }
   /// Change of z by a unit impulse along a direction.
-  Vector impulse(const Vector& direction) const { return impulses(direction, false); }
+  Vector impulse(const Vector& direction) const;
   /// on_u . u + on_v . v + on_a . a + on_load . f + constant
   Observable observe(const Vector& on_u, const Vector& on_v, const Vector& on_a,
                      const Vector& on_load, double constant) const;
@@ -134,8 +134,8 @@ class ForcedModes {
   /// Of direction . u^(order) as a row times z; of the sizes of what is added up.
   Vector row(int order, const Vector& direction) const;
   Vector row_of_sizes(int order, const Vector& direction) const;
-  /// Of impulses, or what the sizes of them add up to.
-  Vector impulses(const Vector& direction, bool of_sizes) const;
+  /// What is added up for the change of z by an impulse of these sizes.
+  Vector impulse_sizes(const Vector& impulse) const;
   /// How far z may be from the state that it stands for, and what acts as a force on each mode, where the
   /// modes and the steady response have these sizes.
   Vector shift(const Vector& whole) const;
