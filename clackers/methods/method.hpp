@@ -100,6 +100,9 @@ class Method {
   /// How long one contact lasts [s] for a compliant contact treatment; 0 for a rigid one. A run
   /// resolves the contact where its step is at most 1/25 of this.
   virtual double contact_time(const model::ImpactProblem<>&) const { return 0.0; }
+  /// A name that all methods share whose runs of this problem are the same, to the bit; nothing where it
+  /// shares them with none.
+  virtual std::string shared_run(const model::ImpactProblem<>&) const { return {}; }
   /// Throws InputError unless 0 < step < infinity [s] (of an adaptive method: unless there is a
   /// tolerance that it takes), the problem is valid and there is no objection. The run copies what
   /// it needs of the problem.

@@ -63,6 +63,10 @@ class JoinedMethod final : public Method {
   double contact_time(const model::ImpactProblem<>& problem) const override {
     return treatment_->contact_time(problem);
   }
+  /// Without contacts and friction a treatment has nothing to treat.
+  std::string shared_run(const model::ImpactProblem<>& problem) const override {
+    return problem.contacts.empty() && problem.frictions.empty() ? integrator_->facts().name : "";
+  }
   std::unique_ptr<model::Run> prepare(const model::ImpactProblem<>& problem,
                                       const Resolution& resolution) const override {
     return treatment_->prepare(*this, *integrator_, problem, resolution);

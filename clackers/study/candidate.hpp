@@ -17,6 +17,8 @@
 
 namespace clackers::study {
 
+class SharedRuns;
+
 /// A case under study.
 struct StudyCase {
   cases::Case problem;
@@ -24,6 +26,7 @@ struct StudyCase {
   std::optional<measure::SharedInstant> shared;   ///< the first of the reference
   std::shared_ptr<measure::SharedStates> states;  ///< of the reference; may be null
   std::shared_ptr<const measure::Scales> scales;  ///< of errors; may be null
+  std::shared_ptr<SharedRuns> runs;               ///< of methods that run alike; may be null
 };
 
 StudyCase study_case(cases::Case problem);

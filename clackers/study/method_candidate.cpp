@@ -14,6 +14,7 @@
 #include "clackers/record/all_metrics.hpp"
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/study/run_sinks.hpp"
+#include "clackers/study/shared_runs.hpp"
 
 namespace clackers::study {
 namespace {
@@ -106,6 +107,7 @@ MethodCandidate::MethodCandidate(std::shared_ptr<const methods::Method> method,
   if (facts.is_adaptive) facts_.levels = tolerances;
   facts_.has_ends = extras.record && !facts.is_adaptive;
   reports_impacts_ = facts.reports_impacts;
+  if (problem_.runs) shared_run_ = method_->shared_run(problem_.problem.problem);
   constexpr double of_linear_spring = 0.5;
   if (facts.model_order == of_linear_spring) spring_time_ = facts_.subject.contact_time;
 }
@@ -120,33 +122,56 @@ double MethodCandidate::cost(const RunTask& task) const {
 std::optional<Measured> MethodCandidate::run(const RunTask& task, TaskShare& share,
                                              const std::atomic<bool>* interrupt) {
   if (interrupt != nullptr && *interrupt) return {};
+  const bool is_shared = !shared_run_.empty();
+  auto key = SharedRuns::key(shared_run_, task);
+  auto result = is_shared ? problem_.runs->find(key) : std::nullopt;
+  if (result && !extras_.times) return result;
   const double start = processor_time();
+  const auto run = method_->prepare(problem_.problem.problem,
+                                    task.run.tolerance > 0.0
+                                        ? methods::Resolution::by_tolerance(task.run.tolerance)
+                                        : methods::Resolution(task.run.step));
+  if (!result) {
+    result = task.wanted.observation ? observed(*run, task, share, interrupt)
+                                     : measured(*run, task, share, interrupt);
+    if (!result) return {};
+    result->seconds = processor_time() - start;
+    if (result->run.score.finished) result->run.score.seconds = result->seconds;
+    if (is_shared) problem_.runs->keep(std::move(key), *result);
+  }
+  if (!extras_.times || task.wanted.observation || !result->run.score.finished) return result;
+  const double timing = processor_time();
+  WatchedSink timed(nullptr, share, timed_state, interrupt);
+  const auto seconds = time_of(*run, timed);
+  if (!seconds) return {};
+  result->run.score.seconds = *seconds;
+  result->seconds += processor_time() - timing;
+  return result;
+}
+
+std::optional<Measured> MethodCandidate::measured(model::Run& run, const RunTask& task,
+                                                  TaskShare& share,
+                                                  const std::atomic<bool>* interrupt) const {
   const auto& problem = problem_.problem.problem;
   const auto& motion = *problem_.problem.motion;
-  const bool by_tolerance = task.run.tolerance > 0.0;
-  const auto run =
-      method_->prepare(problem, by_tolerance ? methods::Resolution::by_tolerance(task.run.tolerance)
-                                             : methods::Resolution(task.run.step));
-  if (task.wanted.observation) return observed(*run, task, share, interrupt);
   measure::ErrorSink errors(motion, problem, task.run.step,
                             {.impacts_are_reported = reports_impacts_,
                              .contact_time = facts_.subject.contact_time,
                              .history_bins = task.wanted.history_bins,
-                             .states = by_tolerance || !problem_.states
+                             .states = task.run.tolerance > 0.0 || !problem_.states
                                            ? nullptr
                                            : problem_.states->of(task.run.step, task.run.steps),
                              .scales = problem_.scales.get()});
   model::TrajectorySink stored(reports_impacts_);
   RunRecorder recorder(errors, task.wanted.metrics ? &stored : nullptr);
   WatchedSink watched(&recorder, share, error_state, interrupt);
-  const auto outcome = run->advance(watched);
+  const auto outcome = run.advance(watched);
   if (outcome.stopped_by_sink) return {};
   Measured result;
   result.run.score = errors.score(outcome);
   result.run.score.step = task.resolution();
   if (task.wanted.history_bins > 0)
     result.run.error_history = curve_of(errors.history(), motion.dof());
-  result.seconds = processor_time() - start;
   if (!outcome.finished) return result;
   if (facts_.has_ends) result.end_u = relative(recorder.last_u(), problem_);
   // A state that is not finite is no row of a history.
@@ -160,15 +185,6 @@ std::optional<Measured> MethodCandidate::run(const RunTask& task, TaskShare& sha
     if (extras_.record && motion.dof() <= record::most_blocks)
       result.run.motion = motion_of(stored.trajectory());
   }
-  if (!extras_.times) {
-    result.run.score.seconds = result.seconds;
-    return result;
-  }
-  WatchedSink timed(nullptr, share, timed_state, interrupt);
-  const auto seconds = time_of(*run, timed);
-  if (!seconds) return {};
-  result.run.score.seconds = *seconds;
-  result.seconds = processor_time() - start;
   return result;
 }
 

@@ -30,11 +30,14 @@ class MethodCandidate : public Candidate {
   double cost(const RunTask& task) const override;
   /// Measures the errors of a run and, if it finished, makes it again without for its processor time
   /// (short runs several times, for a time that the clock resolves), unless the extras leave that
-  /// out: the time is then that of the run with its errors.
+  /// out: the time is then that of the run with its errors. What other methods have in common with this
+  /// one is measured once.
   std::optional<Measured> run(const RunTask& task, TaskShare& share,
                               const std::atomic<bool>* interrupt) override;
 
  private:
+  std::optional<Measured> measured(model::Run& run, const RunTask& task, TaskShare& share,
+                                   const std::atomic<bool>* interrupt) const;
   std::optional<Measured> observed(model::Run& run, const RunTask& task, TaskShare& share,
                                    const std::atomic<bool>* interrupt) const;
 
@@ -43,6 +46,7 @@ class MethodCandidate : public Candidate {
   Extras extras_;
   CandidateFacts facts_;
   bool reports_impacts_ = true;
+  std::string shared_run_;
   double spring_time_ = 0.0;  // contact time of a linear contact spring [s]; 0: it has none
 };
 

@@ -18,6 +18,7 @@
 #include "clackers/record/reduced_curve.hpp"
 #include "clackers/solvers/program.hpp"
 #include "clackers/study/method_candidate.hpp"
+#include "clackers/study/shared_runs.hpp"
 #include "clackers/study/solver_candidate.hpp"
 #include "clackers/study/subject_study.hpp"
 #include "clackers/tables/case_summary.hpp"
@@ -289,8 +290,8 @@ StudyCase study_case(cases::Case problem) {
   auto states = std::make_shared<measure::SharedStates>(problem.motion, problem.problem.start.t);
   auto scales =
       std::make_shared<const measure::Scales>(measure::scales_of(*problem.motion, problem.problem));
-  return {std::move(problem), std::move(summary), std::move(shared), std::move(states),
-          std::move(scales)};
+  return {std::move(problem), std::move(summary), std::move(shared),
+          std::move(states),  std::move(scales),  std::make_shared<SharedRuns>()};
 }
 
 record::RefinementPlan checked_plan(const RefinementRequest& request, const StudyCase& problem,
