@@ -75,6 +75,7 @@ std::string reading_of(const Order& u, const Order& v_l1, const PathOrders& expe
   constexpr double still = 0.1;
   const double least_u = 0.75 * expected.u, least_v = 0.6 * expected.v_l1;
   if (std::isnan(u.slope)) return "failed: " + failure;
+  if (u.is_below(-still)) return "diverges";
   if (u.is_below(still)) return "stagnates";
   if (v_l1.is_below(still)) return "velocities stagnate";
   if (u.is_below(least_u) || v_l1.is_below(least_v)) return "slower";
@@ -93,7 +94,7 @@ std::vector<record::Column> error_columns() {
           {"e_space", "", "of it the mesh's: known before anything runs"},
           {"v_l1", "", "error of v over x and t, in L1"},
           {"v_l2", "", "error of v over x and t, in L2"},
-          {"energy", "", "gained up to the end, over the largest kinetic energy"}};
+          {"energy", "", "gained up to the end, over the largest kinetic one of the bar"}};
 }
 
 }  // namespace

@@ -271,6 +271,17 @@ TEST(BarContact, AnyHeightKeepsTheLawAndTheEnergy) {
   }
 }
 
+// The table of whole N is that of N >= 3; N = 1 is a height as any other.
+TEST(BarContact, TheLowestWholeNumberHasNoPeriod) {
+  const BarContact by_number({{Bar{}}, 0.0, 31.0, 0.125, 1.0}, "bar"),
+      by_height({{Bar{}}, 0.0625, 31.0, 0.125}, "bar");
+  EXPECT_EQ(by_number.period().nearest(), 0.0);
+  for (double t = 0.25; t < 31.0; t += 0.5)
+    EXPECT_NEAR(by_number.at(0, 0.25, t, Side::right).u.nearest(),
+                by_height.at(0, 0.25, t, Side::right).u.nearest(), 1e-15)
+        << t;
+}
+
 TEST(BarContact, ASoftTouchIsRefused) {
   // N = 2: the gap closes with velocity 0.
   EXPECT_REFUSED(BarContact({{Bar{}}, 0.25, 30.0, 0.125}, "bar"), "not-admissible", "so softly");

@@ -75,7 +75,9 @@ BarContact::Waves::Waves(const BarsParameters& parameters, std::string_view who)
   if (p_.N > 0.0) {
     const auto fall = Wide(p_.N) * waves_[0].tau;
     gap_ = Wide(0.5) * Wide(p_.g) * fall * fall;
-    if (p_.N == std::floor(p_.N)) period_ = Wide(4.0) * (Wide(p_.N) + Wide(1.0)) * waves_[0].tau;
+    // From lower heights the next falls are others.
+    if (p_.N >= 3.0 && p_.N == std::floor(p_.N))
+      period_ = Wide(4.0) * (Wide(p_.N) + Wide(1.0)) * waves_[0].tau;
   }
   build(who);
 }
