@@ -8,6 +8,7 @@
 
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/methods/registry.hpp"
+#include "clackers/study/shared_runs.hpp"
 #include "clackers/study/testing/toy_motion.hpp"
 
 namespace clackers::study {
@@ -29,7 +30,10 @@ class ScriptedMethod : public methods::Method {
     return std::make_unique<ScriptedRun>(script_);
   }
 
+  std::string shared_run(const model::ImpactProblem<>&) const override { return shared; }
+
   mutable int prepared = 0;
+  std::string shared;
 
  private:
   class ScriptedRun : public model::Run {
@@ -183,6 +187,29 @@ TEST_F(RunsOfMethods, AreMeasuredByAllMetricsWhereThatIsAskedFor) {
   }
   EXPECT_TRUE(assessed([](int) { return true; }, false)->run.metrics.empty());
   EXPECT_TRUE(assessed([](int) { return false; }, true)->run.metrics.empty());
+}
+
+TEST_F(RunsOfMethods, AreMeasuredOnceWhereMethodsShareThem) {
+  (void)assessed([](int) { return true; });
+  study_.runs = std::make_shared<SharedRuns>();
+  const auto prepared = [&](const char* shared, bool times, bool metrics) {
+    method_ = std::make_shared<ScriptedMethod>([](int) { return true; });
+    method_->shared = shared;
+    MethodCandidate candidate(method_, study_, {}, {.times = times});
+    ProgressMeter meter(1.0, {});
+    TaskShare share(meter, 1.0);
+    const auto result = candidate.run({{4.0, 2, 0.0}, {.metrics = metrics}}, share, nullptr);
+    EXPECT_EQ(result->end_u, (std::vector<double>{0.75}));
+    EXPECT_EQ(result->run.metrics.empty(), !metrics);
+    EXPECT_GT(result->run.score.seconds, 0.0);
+    return method_->prepared;
+  };
+  EXPECT_EQ(prepared("a", false, false), 1);
+  EXPECT_EQ(prepared("a", false, false), 0);
+  EXPECT_EQ(prepared("a", false, true), 1) << "more is wanted of this one";
+  EXPECT_EQ(prepared("b", false, false), 1);
+  for (int twice = 0; twice < 2; ++twice) EXPECT_EQ(prepared("", false, false), 1);
+  EXPECT_EQ(prepared("a", true, false), 1) << "for its own time";
 }
 
 TEST_F(RunsOfMethods, CostMoreWhereMetricsAreMeasured) {

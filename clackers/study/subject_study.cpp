@@ -45,10 +45,18 @@ bool is_as_smooth(const judge::LadderFit& fit, double smooth_order) {
           fit.order >= (1.0 - judge::order_tolerance) * smooth_order);
 }
 
+bool is_convergent(const Claim& claim) {
+  return claim.behaviour == Behaviour::exact || claim.order > 0.0;
+}
+
+bool is_at_step_end(const diagnose::Diagnosis& cause) {
+  return cause.code == Code("impact-at-step-end").name();
+}
+
 // What a cause leaves of a claim to converge: impacts at the ends of steps are of first order, and scatter;
 // another system is not the one that was claimed, however good the order of the flights is.
 Verdict least_verdict(const diagnose::Diagnosis& cause, const Claim& claim) {
-  if (cause.code == Code("impact-at-step-end").name() && cause.confidence >= diagnose::sure &&
+  if (is_at_step_end(cause) && cause.confidence >= diagnose::sure &&
       (claim.behaviour == Behaviour::exact ||
        (claim.behaviour == Behaviour::proper && claim.order > 1.5)))
     return Verdict::disagrees;
@@ -308,7 +316,12 @@ void SubjectStudy::decide() {
                                            .by_tolerance = by_tolerance(),
                                            .is_this_system = is_method(),
                                            .family = family_of(problem_.problem)});
-  if (is_method()) return;
+  if (is_method()) {
+    // Why a method does not converge through impacts, its claim says.
+    if (!is_convergent(subject_.claim) && !subject_.claim.reason.empty())
+      std::erase_if(subject_.diagnoses, is_at_step_end);
+    return;
+  }
   if (subject_.claim.velocity_order > 0.0)
     std::erase_if(subject_.diagnoses, [](const diagnose::Diagnosis& found) {
       return found.code == Code("velocity-order-lower").name();

@@ -248,6 +248,17 @@ TEST(Verify, KeepsAMethodThatObjectsWithItsReason) {
   EXPECT_EQ(exit_code(record), 0);
 }
 
+// Its impacts are at the ends of steps as well, but to locate them would not help.
+TEST(Verify, LeavesToTheClaimWhyAMethodDoesNotConverge) {
+  VerifyRequest request;
+  request.methods = {"newmark-implicit-contact", "newmark+reversal"};
+  request.cases = {"stop"};
+  request.plan = {0.05, 6, 2};
+  const auto record = verify(request);
+  EXPECT_TRUE(subjects(record)[0].diagnoses.empty());
+  EXPECT_FALSE(subjects(record)[1].diagnoses.empty());
+}
+
 TEST(Verify, RefusesWhenEveryMethodObjects) {
   auto request = small({"newmark+penalty"});
   request.settings.emplace_back("eta", 0.5);

@@ -12,6 +12,7 @@
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/methods/method.hpp"
+#include "clackers/model/nonlinear_springs.hpp"
 #include "clackers/model/trajectory.hpp"
 
 namespace clackers::methods {
@@ -72,6 +73,30 @@ TEST_P(EveryMethod, RefusesStepsThatAreNotPositiveAndFinite) {
   for (const double h : {0.0, -0.1, std::numeric_limits<double>::quiet_NaN(),
                          std::numeric_limits<double>::infinity(), 11.0, 1e-9})
     EXPECT_THROW(chosen->prepare(row_of(2, 1.0), h), InputError) << "h = " << h;
+}
+
+// Its integrator alone has other events to look for, and none here.
+TEST_P(EveryMethod, SharesARunOnlyWithAnEqualOne) {
+  auto problem = row_of(2, 1.0);
+  EXPECT_EQ(chosen->shared_run(problem), "");
+  problem.contacts.clear();
+  for (const bool is_nonlinear : {false, true}) {
+    using model::NonlinearSprings;
+    if (is_nonlinear)
+      problem.system.nonlinear =
+          std::make_shared<NonlinearSprings>(std::vector<NonlinearSprings::Row>{
+              {.direction = Eigen::Vector2d(1.0, -0.5), .stiffness = 0.5}});
+    const auto name = chosen->shared_run(problem);
+    if (name.empty() || chosen->objection(problem)) continue;
+    const auto states = [&](const Method& one) {
+      model::TrajectorySink sink(true);
+      EXPECT_TRUE(one.prepare(problem, resolution_of(one, 0.05))->advance(sink).finished);
+      return sink.trajectory();
+    };
+    const auto own = states(*chosen), other = states(*method(name));
+    EXPECT_EQ(own.u, other.u);
+    EXPECT_EQ(own.v, other.v);
+  }
 }
 
 TEST_P(EveryMethod, TakesAStepOrATolerance) {

@@ -8,6 +8,9 @@
 namespace clackers::judge {
 namespace {
 
+// An error, over the largest envelope, as large as the motion.
+constexpr double of_the_motion = 0.1;
+
 // Of a line or an envelope whose order is off by more than allowed, and of one that is not.
 Verdict compare_order(const LadderFit& fit, double claimed, double tolerance) {
   const double off = std::abs(fit.order - claimed);
@@ -49,7 +52,7 @@ bool is_above_floor(const LadderFit& fit, const JudgeContext& facts) {
 }
 
 bool is_still_coarse(const LadderFit& fit) {
-  constexpr double large = 0.1, least_rise = 0.05;
+  constexpr double least_rise = 0.05;
   const auto rate = [&](int i) {
     const auto at = std::size_t(i);
     return std::log(fit.errors[at] / fit.errors[at + 1]) /
@@ -57,7 +60,7 @@ bool is_still_coarse(const LadderFit& fit) {
   };
   const int last = fit.last_level - 1;
   return fit.first_level < last && std::size_t(fit.last_level) < fit.errors.size() &&
-         fit.errors.back() > large && rate(last) > rate(fit.first_level) + least_rise;
+         fit.errors.back() > of_the_motion && rate(last) > rate(fit.first_level) + least_rise;
 }
 
 Verdict compare(const LadderFit& fit, const Claim& claim, const JudgeContext& facts) {
@@ -83,6 +86,10 @@ Verdict compare(const LadderFit& fit, const Claim& claim, const JudgeContext& fa
                ? Verdict::disagrees
                : found;
   }
+  // Errors of the size of the motion that neither grow nor fall are as far from it.
+  if (claim.behaviour == Behaviour::divergent && fit.behaviour == Behaviour::stagnating &&
+      fit.floor > of_the_motion)
+    return Verdict::agrees;
   return fit.behaviour == claim.behaviour ? Verdict::agrees : Verdict::disagrees;
 }
 

@@ -117,8 +117,8 @@ struct JudgeContext {
 /// happens. Impacts missed or extra on the two finest levels disagree whatever the errors say, unless
 /// the claim is a floor and their number is right (then they came too late to be matched) or, at the very
 /// floor that is claimed, above `large_error`, off by at most a half; where an envelope is claimed, only
-/// if most runs of both levels miscount. A claim to diverge says nothing of impacts. A claim to converge
-/// disagrees where the files converge to another limit.
+/// if most runs of both levels miscount. A claim to diverge says nothing of impacts, and agrees with a
+/// floor above a tenth of the motion. A claim to converge disagrees where the files converge to another limit.
 ///
 /// A tolerance has a verdict of its own, `undecided` where printing makes more than the difference
 /// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of

@@ -565,6 +565,15 @@ TEST(Judge, ADivergentClaimMayBeMade) {
   const auto found =
       judge(scores([](double h) { return 1e-6 / h; }), {Behaviour::divergent, 0.0, ""});
   EXPECT_EQ(found.verdict, Verdict::agrees);
+  // A motion that was lost grows no further.
+  const auto verdict_at = [](double floor) {
+    const auto rough = [=](double h) { return floor * (1.0 + 0.3 * std::sin(1.0 / h)); };
+    const auto judged = judge(scores(rough), {Behaviour::divergent, 0.0, ""});
+    EXPECT_EQ(judged.displacement.behaviour, Behaviour::stagnating);
+    return judged.verdict;
+  };
+  EXPECT_EQ(verdict_at(0.4), Verdict::agrees);
+  EXPECT_EQ(verdict_at(0.05), Verdict::disagrees);
 }
 
 // Impacts of one instant, taken one by one: exact until then, another motion after it.
