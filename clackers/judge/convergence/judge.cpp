@@ -126,6 +126,9 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
              (is_unexplained_floor(fit) || stays_large(fit))) {
     if (fit.behaviour == Behaviour::undecided) fit.behaviour = Behaviour::divergent;
     fit.reason = Code("simultaneous-impacts").name();
+  } else if (is_unexplained_floor(fit) && fit.floor > large_error && !claim.reason.empty() &&
+             (claim.behaviour == Behaviour::undecided || claim.behaviour == Behaviour::divergent)) {
+    fit.reason = claim.reason;
   } else if (fit.behaviour == Behaviour::undecided && open && errors_fall(fit) &&
              energy_is(ladder, too_little)) {
     fit.reason = Code("numerical-damping").name();

@@ -89,6 +89,8 @@ struct JudgeContext {
 ///     stagnating [simultaneous-impacts]
 ///                                   at an unexplained or a rough floor that comes from them, and at
 ///                                   any that is as large as the motion
+///     stagnating [reason claimed]   at such a floor above `large_error`, where a claim to diverge, or
+///                                   none, names its reason
 ///     undecided [numerical-damping] undecided with falling errors, and most of those runs end with
 ///                                   less than half of it
 ///     undecided [too-few-levels]    errors above `large_error` fall by no order that a method

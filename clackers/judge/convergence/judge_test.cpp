@@ -566,14 +566,19 @@ TEST(Judge, ADivergentClaimMayBeMade) {
       judge(scores([](double h) { return 1e-6 / h; }), {Behaviour::divergent, 0.0, ""});
   EXPECT_EQ(found.verdict, Verdict::agrees);
   // A motion that was lost grows no further.
-  const auto verdict_at = [](double floor) {
+  const auto of_floor = [](double floor, Behaviour claimed) {
     const auto rough = [=](double h) { return floor * (1.0 + 0.3 * std::sin(1.0 / h)); };
-    const auto judged = judge(scores(rough), {Behaviour::divergent, 0.0, ""});
-    EXPECT_EQ(judged.displacement.behaviour, Behaviour::stagnating);
-    return judged.verdict;
+    return judge(scores(rough), {claimed, 0.0, "energy-growth"});
   };
-  EXPECT_EQ(verdict_at(0.4), Verdict::agrees);
-  EXPECT_EQ(verdict_at(0.05), Verdict::disagrees);
+  EXPECT_EQ(of_floor(0.4, Behaviour::divergent).verdict, Verdict::agrees);
+  EXPECT_EQ(of_floor(0.05, Behaviour::divergent).verdict, Verdict::disagrees);
+  // So large a floor is no noise where the claim knows its reason.
+  for (const auto claimed : {Behaviour::divergent, Behaviour::undecided}) {
+    EXPECT_EQ(of_floor(0.05, claimed).displacement.behaviour, Behaviour::stagnating);
+    EXPECT_EQ(of_floor(0.05, claimed).displacement.reason, "energy-growth");
+    EXPECT_EQ(of_floor(0.005, claimed).displacement.reason, "noise-floor");
+  }
+  EXPECT_EQ(of_floor(0.05, Behaviour::stagnating).displacement.reason, "noise-floor");
 }
 
 // Impacts of one instant, taken one by one: exact until then, another motion after it.

@@ -83,8 +83,6 @@ TEST(AssessmentText, AClaimThatIsTooLowIsSaid) {
   EXPECT_TRUE(has(assessment_text(subject), "converges faster"));
   subject.claim = {};
   EXPECT_TRUE(has(assessment_text(subject), "Nothing is claimed."));
-  subject.claim.reason = "no-impact-law";
-  EXPECT_TRUE(has(assessment_text(subject), "Nothing is claimed. The method has no law of impact"));
 }
 
 TEST(AssessmentText, ALineMayEndAtAFloor) {
