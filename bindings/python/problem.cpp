@@ -6,6 +6,7 @@
 
 #include "bindings/python/bind.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::python {
 namespace {
@@ -26,6 +27,15 @@ py::list contacts_of(const Problem& problem) {
   py::list rows;
   for (const auto& contact : problem->contacts)
     rows.append(py::make_tuple(read_only(contact.direction), contact.gap, contact.restitution));
+  return rows;
+}
+
+py::list springs_of(const Problem& problem) {
+  py::list rows;
+  if (const auto* springs = model::one_sided_springs(*problem))
+    for (std::size_t j = 0; j < springs->contacts().size(); ++j)
+      rows.append(py::make_tuple(read_only(springs->contacts()[j].direction),
+                                 springs->contacts()[j].gap, springs->stiffnesses()[j]));
   return rows;
 }
 
@@ -81,6 +91,7 @@ void bind_problem(py::module_& core) {
       .def_property_readonly("start", &start_of)
       .def_property_readonly("end", [](const Problem& problem) { return problem->end; })
       .def_property_readonly("contacts", &contacts_of)
+      .def_property_readonly("springs", &springs_of)
       .def("load", &Problem::load, py::arg("t"))
       .def("rhs", &Problem::rhs, py::arg("t"), py::arg("y"))
       .def("gap", &Problem::gap, py::arg("y"), py::arg("contact"))

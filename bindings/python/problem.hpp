@@ -16,6 +16,7 @@ class Problem {
   explicit Problem(std::shared_ptr<const model::ImpactProblem<>> problem)
       : problem_(std::move(problem)), equations_(*problem_) {}
 
+  const model::ImpactProblem<>& operator*() const { return *problem_; }
   const model::ImpactProblem<>* operator->() const { return problem_.get(); }
 
   /// See model::FirstOrder. All throw InputError unless y has the shape (2 dof,).

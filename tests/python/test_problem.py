@@ -26,6 +26,22 @@ class Problem(unittest.TestCase):
         self.assertEqual((contact.gap, contact.restitution), (0.0, 0.5))
         self.assertEqual(clackers.case("sdof").problem.contacts, ())
 
+    def test_contact_with_a_stiffness_is_a_spring_that_pushes(self):
+        case = clackers.case("penalized-pair", stiffness=300.0)
+        problem = case.problem
+        (spring,) = problem.springs
+        np.testing.assert_array_equal(spring.direction, [1.0, -1.0])
+        self.assertEqual((spring.gap, spring.stiffness, problem.contacts), (0.0, 300.0, ()))
+        self.assertEqual(clackers.case("stop").problem.springs, ())
+        t = np.linspace(0.0, case.end, 201)
+        u, v, a = case.response(t)
+        free = [np.linalg.solve(problem.M, -problem.C @ v[k] - problem.K @ u[k]) for k in range(len(t))]
+        push = 300.0 * np.maximum(u[:, 1] - u[:, 0], 0.0)
+        self.assertGreater(push.max(), 1.0)
+        np.testing.assert_allclose(a, free + np.outer(push, [1.0, -1.0]) @ np.linalg.inv(problem.M), rtol=0, atol=1e-11)
+        for k in range(len(t)):
+            np.testing.assert_allclose(problem.rhs(t[k], np.concatenate([u[k], v[k]]))[2:], a[k], rtol=0, atol=1e-11)
+
     def test_arrays_cannot_be_written_to(self):
         problem = clackers.case("three-parameter").problem
         for array in (problem.M, problem.C, problem.K, problem.start.u, problem.start.v, problem.contacts[0].direction,

@@ -10,7 +10,7 @@ from clackers import plot
 from clackers._case import Admissibility, Case, Impacts, Kinematics, admissibility, case
 from clackers._core import version as __version__
 from clackers._errors import Error, FileError, InputError, Interrupted, SolverError
-from clackers._problem import Contact, GapEvent, Problem, State
+from clackers._problem import Contact, GapEvent, Problem, Spring, State
 from clackers._record import Diagnosis, Figure, Record, Subject, load
 from clackers._solver import Program, Solver
 from clackers._study import Comparison, check, compare, verify
@@ -36,6 +36,7 @@ __all__ = [
     "Record",
     "Solver",
     "SolverError",
+    "Spring",
     "State",
     "Subject",
     "Table",

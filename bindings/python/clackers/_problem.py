@@ -22,6 +22,17 @@ class Contact(NamedTuple):
     """eta in [0, 1]; 1 is elastic. At an impact b . v(+) = -eta b . v(-)."""
 
 
+class Spring(NamedTuple):
+    """A contact with a stiffness: the force ``stiffness * max(gap - direction . u, 0)`` along the direction, on u."""
+
+    direction: Array
+    """b, shape (dof,), dimensionless."""
+    gap: float
+    """[m]; it is in contact where b . u < gap."""
+    stiffness: float
+    """[N/m]"""
+
+
 class State(NamedTuple):
     """Displacements u [m] and velocities v [m/s] of all masses at time t [s]."""
 
@@ -76,6 +87,7 @@ class Problem:
         self._K = core.stiffness
         self._start = State(*core.start)
         self._contacts = tuple(Contact(*row) for row in core.contacts)
+        self._springs = tuple(Spring(*row) for row in core.springs)
 
     @property
     def dof(self) -> int:
@@ -101,6 +113,11 @@ class Problem:
     def contacts(self) -> tuple[Contact, ...]:
         """Where the structure may collide; empty for no contact."""
         return self._contacts
+
+    @property
+    def springs(self) -> tuple[Spring, ...]:
+        """The contacts that have a stiffness in place of a restitution, such as that of ``penalized-pair``."""
+        return self._springs
 
     @property
     def start(self) -> State:
@@ -144,7 +161,9 @@ class Problem:
         return self._core.load(t)
 
     def rhs(self, t: float, y: npt.ArrayLike) -> Array:
-        """dy/dt = (v, M^-1 (f(t) - C v - K u)) of y = (u, v), while nothing collides.
+        """dy/dt = (v, M^-1 (f(t) - C v - K u - p(u))) of y = (u, v), while nothing collides.
+
+        p are the forces of ``springs`` and of nonlinear springs.
 
         Parameters
         ----------
