@@ -38,23 +38,31 @@ std::string replaced(const std::string& text, const char* pattern, const char* b
   return std::regex_replace(text, std::regex(pattern), by);
 }
 
-// The names in a specification, with the treatment that an integrator alone has.
+std::string name_of(const std::string& part) { return part.substr(0, part.find(':')); }
+
+// The parts of a specification, with the treatment that an integrator alone has.
 std::vector<std::string> parts_of(const std::string& specification) {
   std::vector<std::string> parts;
-  for (const auto term : methods::terms_of(specification))
-    parts.emplace_back(term.substr(0, term.find(':')));
+  for (const auto term : methods::terms_of(specification)) parts.emplace_back(term);
   const auto& all = methods::entries();
-  const auto first = std::ranges::find(all, parts.front(), &methods::Entry::name);
+  const auto first = std::ranges::find(all, name_of(parts.front()), &methods::Entry::name);
   if (parts.size() == 1 && first != all.end() && first->kind == "integrator")
     parts.emplace_back(methods::default_treatment);
   return parts;
 }
 
-// The text behind "Source" on a card, in one line.
-std::string source_of(std::string_view card) {
+// The text behind "Source" on the card of a part, and the sources of the words that it chooses, in one line.
+std::string source_of(const std::string& part) {
+  const auto card = methods::card(name_of(part));
   const auto at = card.find("\nSource ");
   if (at == card.npos) return {};
-  return replaced(std::string(card.substr(at + 8)), "\\s+", " ");
+  auto text = replaced(std::string(card.substr(at + 8)), "\\s+", " ");
+  const auto entry = std::ranges::find(methods::entries(), name_of(part), &methods::Entry::name);
+  for (const auto& parameter : entry->parameters)
+    for (const auto& word : parameter.words)
+      if ((part + ',').find(fmt::format("{}={},", parameter.name, word.name)) != part.npos)
+        text += "; " + word.source;
+  return text;
 }
 
 // "N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (EM3), 67-94 (1959)", in its parts. Of a book `where` is
@@ -119,16 +127,16 @@ class Bibliography {
  public:
   void add(const std::string& part) {
     bool has_any = false;
-    const auto source = source_of(methods::card(part));
+    const auto source = source_of(part);
     for (std::size_t from = 0; from < source.size();) {
       const auto end = std::min(source.find(';', from), source.size());
       const auto reference = reference_of(source.substr(from, end - from));
       from = end + 1;
       if (reference.authors.empty() || reference.year.empty()) continue;
       has_any = true;
-      if (key_of(reference) != paper_key) add(reference, part);
+      if (key_of(reference) != paper_key) add(reference, name_of(part));
     }
-    if (!has_any) add_once(without_, part);
+    if (!has_any) add_once(without_, name_of(part));
   }
   std::string text() const {
     std::string text;
@@ -182,9 +190,9 @@ Used used_of(std::span<const std::string> names) {
   for (const auto& name : names) {
     const auto parts = parts_of(name);
     for (const auto& part : parts)
-      if (std::ranges::find(known, part) == known.end())
-        refuse_name("method or case", part, known, "clackers list methods");
-    add_once(methods::card(parts.front()).empty() ? used.cases : used.methods, name);
+      if (std::ranges::find(known, name_of(part)) == known.end())
+        refuse_name("method or case", name_of(part), known, "clackers list methods");
+    add_once(methods::card(name_of(parts.front())).empty() ? used.cases : used.methods, name);
   }
   return used;
 }

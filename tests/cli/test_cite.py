@@ -29,6 +29,11 @@ class Cite(CommandTest):
         self.assertEqual(found["wriggers2006"][1]["title"], "Computational Contact Mechanics")
         self.assertIn("% case three-parameter: soroushian2018, Eq. (25)-(26)", text)
 
+    def test_a_law_brings_its_own_source(self):
+        found = entries(self.good("cite", "newmark+penalty:law=jankowski,stiffness=1e6", "rk4+penalty:law=kelvin-voigt"))
+        self.assertLessEqual({"wriggers2006", "jankowski2006", "anagnostopoulos1988"}, set(found))
+        self.assertNotIn("anagnostopoulos2004", found)
+
     def test_every_method_has_a_source_or_says_that_it_has_none(self):
         names = [row["name"] for row in self.rows_of("list", "methods")]
         text = self.good("cite", *names)

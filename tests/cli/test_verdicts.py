@@ -20,6 +20,14 @@ class Verdicts(CommandTest):
             self.assertEqual(verdicts[-1]["verdict"], "agrees", method)
             self.assertEqual(verdicts[1]["reason"], "contact-not-resolved", method)
 
+    def test_a_method_that_converges_has_no_other_limit(self):
+        with open(self.path("rest.toml"), "w") as file:
+            file.write("M = [[1, 0], [0, 2]]\nK = [[2, -1], [-1, 3]]\nend = 10\n[start]\nu = [0.5, -0.5]\n"
+                       "[[contacts]]\ndirection = [1, -1]\nrestitution = 0\n")
+        done = run("verify", "newmark+reversal", "--problem", self.path("rest.toml"), "--levels", "7")
+        self.assertRegex(done.stdout, r"Agrees: Converges irregularly[^\[]*\[irregular\]")
+        self.assertNotIn("wrong-limit", done.stdout)
+
     def test_an_order_of_the_coarse_range_is_undecided(self):
         found = subject("bdf1", "--set", "N=5,xi1=0.03", "--levels", "8")["assessment"]
         self.assertLess(found["displacement"]["order"], 0.8)
