@@ -47,6 +47,12 @@ struct Provenance {
   std::string compiler, machine, processor, date;  ///< date in UTC, ISO 8601
 };
 
+/// A curve for a figure.
+struct Curve {
+  std::vector<double> t;               ///< [s]
+  std::vector<std::vector<double>> y;  ///< one row a mass
+};
+
 /// The problem of a case and its reference solution.
 struct CaseSummary {
   std::string name, summary, equations;
@@ -57,6 +63,7 @@ struct CaseSummary {
   std::vector<int> impact_contacts;  ///< the contact of each, from 0
   Schematic drawing;
   long long impact_count = 0;
+  Curve contact_forces{};  ///< of those that stay closed [N], one row a contact; empty where none does
 };
 
 using judge::RefinementPlan;
@@ -79,12 +86,6 @@ struct Refinement {
   int samples_per_level = 0;                 ///< now
   RefinementEnd end = RefinementEnd::decided;
   double next_seconds = 0.0;  ///< expected time of what did not fit into the budget [s], else 0
-};
-
-/// A curve for a figure.
-struct Curve {
-  std::vector<double> t;               ///< [s]
-  std::vector<std::vector<double>> y;  ///< one row a mass
 };
 
 enum class StepSource { data, name, option };          ///< where a history's step comes from

@@ -61,6 +61,7 @@ void fields(auto& archive, Like<CaseSummary> auto& x) {
        x.parameters, "constants", x.constants, "end", x.end, "fast_period", x.fast_period,
        "impact_times", x.impact_times, "impact_count", x.impact_count);
   archive.added("impact_contacts", x.impact_contacts);
+  archive.added("contact_forces", x.contact_forces);
   archive.added("drawing", x.drawing);
 }
 

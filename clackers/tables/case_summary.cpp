@@ -6,6 +6,7 @@
 
 #include "clackers/exact/bodies/bar_motion.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
+#include "clackers/record/reduced_curve.hpp"
 
 namespace clackers::tables {
 namespace {
@@ -19,6 +20,21 @@ double fast_period(const cases::Case& problem) {
   const auto& system = problem.problem.system;
   const double largest = numerics::highest_square(system.stiffness, system.mass);
   return largest > 0.0 ? 2.0 * std::numbers::pi / std::sqrt(largest) : problem.motion->end();
+}
+
+// At equal times, some of which are left out where the curve is straight.
+record::Curve contact_forces(const cases::Case& problem) {
+  const auto& motion = *problem.motion;
+  if (motion.closed_contacts().empty()) return {};
+  constexpr std::size_t times = 1501;
+  const auto time = [&](std::size_t k) { return motion.end() * double(k) / double(times - 1); };
+  std::vector<Eigen::VectorXd> forces;
+  for (std::size_t k = 0; k < times; ++k)
+    forces.push_back(motion.contact_forces(time(k), model::Side::right));
+  return record::reduced(times, problem.problem.contacts.size(), time,
+                         [&](std::size_t row, std::size_t k) {
+                           return forces[k].size() > 0 ? forces[k][Eigen::Index(row)] : 0.0;
+                         });
 }
 
 }  // namespace
@@ -49,6 +65,7 @@ record::CaseSummary summary_of(const cases::Case& problem) {
     summary.impact_times.push_back(impact.t);
     summary.impact_contacts.push_back(impact.contact);
   }
+  summary.contact_forces = contact_forces(problem);
   summary.drawing = record::schematic(problem.problem);
   summary.drawing.plane = problem.plane;
   if (problem.mesh && problem.bars->is_string() && !summary.drawing.blocks.empty())

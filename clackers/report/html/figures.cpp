@@ -243,6 +243,9 @@ std::string player_html(int& number, const record::CaseRecord& problem, const Pl
        {"response", "response" + place.suffix},
        {"reading",
         scene_reading(problem.problem.drawing) +
+            (problem.problem.contact_forces.t.empty()
+                 ? ""
+                 : " A ring marks a contact that stays closed, and an arrow the force on each mass there.") +
             " A dot flashes at impacts. The line in the response shows the time. A run chosen "
             "beside the exact motion is drawn as outlines."}});
 }

@@ -38,6 +38,9 @@ Json player_data(const record::CaseRecord& problem) {
   for (std::size_t k = 0; k < problem.problem.impact_contacts.size(); ++k)
     impacts.push_back({{"t", rounded(problem.problem.impact_times[k])},
                        {"contact", problem.problem.impact_contacts[k]}});
+  const auto& forces = problem.problem.contact_forces;
+  Json pushes = Json::array();
+  for (const auto& force : forces.y) pushes.push_back(rounded_list(force));
   Json string = Json::array();
   for (const auto& node : drawing.string) string.push_back({{"x", node.x}, {"mass", node.mass}});
   Json runs = Json::array();
@@ -60,6 +63,7 @@ Json player_data(const record::CaseRecord& problem) {
           {"springs", springs},
           {"contacts", contacts},
           {"impacts", impacts},
+          {"forces", {{"t", rounded_list(forces.t)}, {"u", std::move(pushes)}}},
           {"leftward", drawing.leftward},
           {"lengths", drawing.lengths},
           {"plane", drawing.plane ? Json(*drawing.plane) : Json(nullptr)},

@@ -17,7 +17,7 @@ function svgElement(parent, tag, attributes, text) {
 function layout(scene) {
   const slots = 1 + Math.max(...scene.blocks.map((block) => block.column));
   const inColumn = (column) => scene.blocks.flatMap((block, i) => (block.column === column ? [i] : []));
-  const reach = Math.max(...scene.u.flat().map(Math.abs), Number.MIN_VALUE);
+  const reach = Math.max(...scene.u.flat().map(Math.abs)) || 1;  // of a motion that rests from the start, any
   const gaps = Array.from({ length: slots - 1 }, (_, column) => {
     const between = scene.contacts.filter(({ left, right }) => left >= 0 && right >= 0 &&
       scene.blocks[left].column === column && scene.blocks[right].column === column + 1);
@@ -53,7 +53,8 @@ function drawRuler(svg, scale) {
 }
 
 // Draws the system. `place(u)` moves it to these displacements; `outline(attributes)` is another one on top, which its
-// result moves, or hides without displacements; `touch(contact, u)` is where that contact flashes.
+// result moves, or hides without displacements; `touch(contact, u)` is where that contact flashes, `push(contact)` are
+// the directions in which its force acts, one a mass.
 function drawScene(svg, scene) {
   if (scene.string?.length > 0) return drawString(svg, scene);
   return scene.plane != null || scene.lengths?.length > 0 ? drawBodies(svg, scene) : drawBlocks(svg, scene);
@@ -109,7 +110,11 @@ function drawBlocks(svg, scene) {
     return middle([...(left < 0 ? [] : [[placeOf(u, left) + width / 2, y[left] - blockHeight]]),
       ...(right < 0 ? [] : [[placeOf(u, right) - width / 2, y[right] - blockHeight]])]);
   }
-  return { place, outline, touch };
+  const push = (contact) => {
+    const { left, right } = scene.contacts[contact];
+    return [...(left < 0 ? [] : [[-1, 0]]), ...(right < 0 ? [] : [[1, 0]])];
+  };
+  return { place, outline, touch, push, room: 0.45 * width };
 }
 
 // A string whose nodes move up and down, in a scale of their own, above what they may touch: a point, or a line.
@@ -152,7 +157,10 @@ function drawString(svg, scene) {
     line(u);
     points.forEach((point, i) => placeOf(nodes[i], u).forEach((at, axis) => point.setAttribute(["cx", "cy"][axis], at.toFixed(2))));
   }
-  return { place, outline: (attributes) => draw({ ...attributes, "data-outline": 1, visibility: "hidden" }), touch: (contact) => touched[contact] };
+  return {
+    place, outline: (attributes) => draw({ ...attributes, "data-outline": 1, visibility: "hidden" }),
+    touch: (contact) => touched[contact], push: () => [[0, -1]]
+  };
 }
 
 function middle(points) {
@@ -231,6 +239,10 @@ function drawBodies(svg, scene) {
       const { left, right } = contacts[contact] ?? {}, { side = 0, axis } = walls[contact] ?? {};
       const [x, y] = middle(bodies.filter((_, i) => isPlane || i === left || i === right).map((body) => center(body, u)));
       return axis === 0 ? [x + side * radius, y] : [x, y - side * radius];
+    },
+    push: (contact) => {
+      const { side, axis } = walls[contact] ?? {};
+      return side === undefined ? [[-1, 0], [1, 0]] : [axis === 0 ? [-side, 0] : [0, side]];
     }
   };
 }
@@ -248,10 +260,37 @@ function countUpTo(times, t) {
 
 function outlineColor(run) { return run === 0 ? "var(--ink)" : `var(--m${(run + 2) % 8 + 1})`; }
 
-// The system in motion, with contacts that flash at impacts and the outlines of up to `most` runs beside it. The
-// function returned draws an instant.
+// Arrows of the forces of contacts that stay closed, the largest of them `room` units long. The function returned draws
+// those of an instant.
+function drawForces(svg, forces, { touch, push, room = 40 }) {
+  const largest = Math.max(...forces.u.flat(), Number.MIN_VALUE);
+  const arrows = forces.u.flatMap((of, contact) => (of.every((force) => !(force > 0)) ? [] : [{
+    contact,
+    path: svgElement(svg, "path", { stroke: "var(--impact)", "stroke-width": 3, fill: "none", visibility: "hidden", "data-force": contact })
+  }]));
+  return (now, u) => arrows.forEach(({ contact, path }) => {
+    const force = valuesAt(forces, now)[contact], length = (room * force) / largest;
+    path.setAttribute("visibility", force > 0 ? "visible" : "hidden");
+    if (!(force > 0)) return;
+    const [x, y] = touch(contact, u), head = Math.min(7, length);
+    path.setAttribute("d", [`M${x - 5},${y}a5,5 0 1 0 10,0a5,5 0 1 0 -10,0`, ...push(contact).map(([dx, dy]) => {
+      const tip = [x + dx * length, y + dy * length], back = [tip[0] - dx * head, tip[1] - dy * head];
+      return `M${x},${y}L${tip}M${back[0] - dy * head},${back[1] + dx * head}L${tip}L${back[0] + dy * head},${back[1] - dx * head}`;
+    })].join(""));
+  });
+}
+
+// The rows of a curve at an instant, between its points on straight lines.
+function valuesAt({ t, u }, now) {
+  const before = Math.min(Math.max(countUpTo(t, now), 1), t.length - 1) - 1;
+  const share = Math.min(Math.max((now - t[before]) / (t[before + 1] - t[before] || 1), 0), 1);
+  return u.map((of) => (1 - share) * of[before] + share * of[before + 1]);
+}
+
+// The system in motion, with contacts that flash at impacts and show their force while they stay closed, and the
+// outlines of up to `most` runs beside it. The function returned draws an instant.
 function drawMotion(svg, scene, most) {
-  const { place, outline, touch } = drawScene(svg, scene), end = scene.t.at(-1);
+  const drawn = drawScene(svg, scene), { place, outline, touch } = drawn, end = scene.t.at(-1);
   const outlines = Array.from({ length: most }, (_, run) => outline({
     fill: "none", stroke: outlineColor(run), "stroke-width": 2, "stroke-dasharray": "5 3"
   }));
@@ -260,15 +299,13 @@ function drawMotion(svg, scene, most) {
     times: scene.impacts.filter((impact) => impact.contact === contact).map((impact) => impact.t),
     mark: svgElement(svg, "circle", { r: 13, fill: "var(--impact)", opacity: 0, "data-contact": contact })
   }));
+  const pushAt = drawForces(svg, scene.forces, drawn);
   const clock = svgElement(svg, "text", { x: stageWidth - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" });
-  const displacements = ({ t, u }, now) => {
-    const before = Math.min(Math.max(countUpTo(t, now), 1), t.length - 1) - 1;
-    const share = Math.min(Math.max((now - t[before]) / (t[before + 1] - t[before] || 1), 0), 1);
-    return u.map((of) => (1 - share) * of[before] + share * of[before + 1]);
-  };
   return (now, runs) => {
-    outlines.forEach((move, run) => move(runs[run] && displacements(runs[run], now)));
-    place(displacements(scene, now));
+    const u = valuesAt(scene, now);
+    outlines.forEach((move, run) => move(runs[run] && valuesAt(runs[run], now)));
+    place(u);
+    pushAt(now, u);
     // The latest impact of a contact up to now counts for a moment: a third of the time between two.
     for (const { contact, times, mark } of sparks) {
       const latest = times[countUpTo(times, now) - 1] ?? -Infinity;
@@ -276,7 +313,7 @@ function drawMotion(svg, scene, most) {
       const flash = Math.max(0, 1 - (now - latest) / moment);
       mark.setAttribute("opacity", flash.toFixed(3));
       if (flash === 0) continue;
-      const [cx, cy] = touch(contact, displacements(scene, latest));
+      const [cx, cy] = touch(contact, valuesAt(scene, latest));
       mark.setAttribute("cx", cx);
       mark.setAttribute("cy", cy);
     }
