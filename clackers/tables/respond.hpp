@@ -50,8 +50,9 @@ bool accumulates(const model::Motion& motion);
 /// total. The case must outlive the rows. Throws InputError as respond() does.
 std::unique_ptr<record::RowSource> energies(const cases::Case& test_case, const TimeGrid& grid);
 
-/// The forces of contacts that stay closed [N], t,side,force1[,force2,...] at the times of respond(), 0
-/// for open ones. The case must outlive the rows. Throws InputError as respond() does.
+/// The forces of contacts that stay closed, then of one-sided springs, 0 for open ones, and of dry friction
+/// [N]: t,side[,force1,...][,friction1,...] at the times of respond(). The case must outlive the rows.
+/// Throws InputError as respond() does, and for a case without any of them (no-closed-form).
 std::unique_ptr<record::RowSource> forces(const cases::Case& test_case, const TimeGrid& grid);
 
 /// The motion of a case's bars at places x [m], from -L1 (the far end of the left one of two) or 0 (the
