@@ -45,9 +45,9 @@ std::unique_ptr<record::RowSource> impacts(const cases::Case& test_case);
 /// Whether infinitely many impacts come before a contact rests.
 bool accumulates(const model::Motion& motion);
 
-/// Where the energy is: t,side,kinetic,potential,dissipated,lost,total,momentum at the times of
-/// respond(), with its two rows at impacts. A motion that is no pair's has neither dissipated nor
-/// total. The case must outlive the rows. Throws InputError as respond() does.
+/// Where the energy is: t,side,kinetic,potential,dissipated,lost[,work],total,momentum at the times of
+/// respond(), with its two rows at impacts; work where loads vary or belts move. The case must outlive
+/// the rows. Throws InputError as respond() does.
 std::unique_ptr<record::RowSource> energies(const cases::Case& test_case, const TimeGrid& grid);
 
 /// The forces of contacts that stay closed, then of one-sided springs, 0 for open ones, and of dry friction

@@ -228,9 +228,12 @@ void add_respond(Grammar& root) {
                 "The impacts instead: k, t [s], u1 [m], velocities before and after [m/s], "
                 "impulse [N s], energy before and after [J].");
   app->add_flag("--collisions", options->impacts, "The former name of --impacts.");
-  app->add_flag("--energy", options->energy,
-                "At the times, the energy instead: kinetic, potential, dissipated so far, lost at "
-                "impacts so far and their total [J], and the momentum [kg m/s].");
+  app->add_flag(
+      "--energy", options->energy,
+      "At the times, the energy instead: kinetic, potential of springs and constant loads, "
+      "dissipated by dashpots and friction so far, lost at impacts so far, work of loads "
+      "that vary and of belts so far, the total of the first four less the work [J], and the "
+      "momentum [kg m/s].");
   app->add_flag(
       "--forces", options->forces,
       "At the times, the forces of contacts that stay closed, then of one-sided springs, instead: "
