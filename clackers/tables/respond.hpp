@@ -42,6 +42,10 @@ std::unique_ptr<record::RowSource> respond(const cases::Case& test_case, const T
 /// with the velocities before and after all of them. The case must outlive the rows.
 std::unique_ptr<record::RowSource> impacts(const cases::Case& test_case);
 
+/// Behind a title of impacts with a column contact, whose numbers are those of events files and records; a
+/// person reads numbers from 1 elsewhere.
+inline constexpr std::string_view impact_contacts_note = " (contacts numbered from 0)";
+
 /// Whether infinitely many impacts come before a contact rests.
 bool accumulates(const model::Motion& motion);
 

@@ -224,9 +224,10 @@ void add_respond(Grammar& root) {
          "Times in seconds from a text file, one a line, or from the column t of a history; - "
          "reads standard input. What follows # or % is a comment.")
       ->reads_file("FILE");
-  app->add_flag("--impacts", options->impacts,
-                "The impacts instead: k, t [s], u1 [m], velocities before and after [m/s], "
-                "impulse [N s], energy before and after [J].");
+  app->add_flag(
+      "--impacts", options->impacts,
+      "The impacts instead: k, t [s], of several contacts which, from 0, u1 [m], velocities "
+      "before and after [m/s], impulse [N s], energy before and after [J].");
   app->add_flag("--collisions", options->impacts, "The former name of --impacts.");
   app->add_flag(
       "--energy", options->energy,

@@ -161,6 +161,34 @@ frequency = 0
         self.refused("respond", "circle-billiard", "--forces", "--samples", "3", code="no-closed-form",
                      says="but impacts, whose impulses --impacts has")
 
+    def test_tables_say_from_which_number_contacts_count(self):
+        self.write("""M = [[1, 0], [0, 1]]
+K = [[1, 0], [0, 1]]
+end = 20
+[start]
+u = [1, 2]
+[[contacts]]
+direction = [1, 0]
+restitution = 0.5
+[[contacts]]
+direction = [0, 1]
+gap = 0.25
+restitution = 0.5
+""")
+        shown = " ".join(self.good("show", "--problem", self.file).split())
+        self.assertIn("that are resolved (contacts numbered from 0)", shown)
+        self.assertIn("Contacts that stay closed: 1 (contacts numbered from 1)", shown)
+        hits = self.good("respond", "--problem", self.file, "--impacts")
+        self.assertIn("resolved (contacts numbered from 0)", hits.replace("\n", " "))
+        self.assertIn("Impacts of row (contacts numbered from 0)\n", self.good("respond", "row", "--impacts"))
+        history = self.file + ".csv"
+        with open(history, "w", encoding="utf-8") as file:
+            file.write(self.good("respond", "row", "--samples", "2001", "--format", "csv"))
+        self.assertIn("read from its rows (contacts numbered from 1)\n",
+                      self.good("check", history, "--case", "row", "--impacts"))
+        for text in (self.good("show", "stop"), self.good("respond", "stop", "--impacts")):
+            self.assertNotIn("numbered", text)
+
     def test_inadmissible_orbits_are_refused_with_what_to_change(self):
         self.refused("show", "base-excited-pair", "--set", "A_g=1", code="not-admissible",
                      says="With A_g = -1 they do not.")

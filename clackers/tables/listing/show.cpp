@@ -59,6 +59,10 @@ void keep_impacts_alone(record::Sheet& sheet) {
   });
 }
 
+bool has_several_contacts(const cases::Case& test_case) {
+  return test_case.problem.contacts.size() > 1;
+}
+
 record::Sheet impact_sheet(const cases::Case& test_case) {
   const auto rows = impacts(test_case);
   const auto total = test_case.motion->impact_count(test_case.motion->end());
@@ -76,21 +80,24 @@ record::Sheet impact_sheet(const cases::Case& test_case) {
                             "Impacts: the first {} of {}; all: clackers respond {} "
                             "--impacts",
                             sheet.rows.size(), total, test_case.entry->name);
+  if (total > 0 && has_several_contacts(test_case)) sheet.title += impact_contacts_note;
   return sheet;
 }
 
 std::optional<record::Sheet> closed_sheet(const cases::Case& test_case) {
   const auto closed = test_case.motion->closed_contacts();
   if (closed.empty()) return std::nullopt;
-  record::Sheet sheet{"clackers/closed-contacts/1",
-                      fmt::format("Contacts that stay closed: {}", closed.size()),
-                      {{"contact", "", "number of the contact, from 1"},
-                       {"from", "s", "its force begins"},
-                       {"until", "s", "its force ends, or the run"},
-                       {"uncertainty", "s", "of `from`"},
-                       {"begins", "", "how"},
-                       {"ends", "", "how"}},
-                      {}};
+  record::Sheet sheet{
+      "clackers/closed-contacts/1",
+      fmt::format("Contacts that stay closed: {}{}", closed.size(),
+                  has_several_contacts(test_case) ? " (contacts numbered from 1)" : ""),
+      {{"contact", "", "number of the contact, from 1"},
+       {"from", "s", "its force begins"},
+       {"until", "s", "its force ends, or the run"},
+       {"uncertainty", "s", "of `from`"},
+       {"begins", "", "how"},
+       {"ends", "", "how"}},
+      {}};
   for (const auto& c : closed) {
     if (sheet.rows.size() == impacts_shown) break;
     const auto count = test_case.motion->impact_count(c.from);
