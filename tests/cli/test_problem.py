@@ -132,6 +132,10 @@ dof = 1
 amplitude = -2
 frequency = 0
 """)
+        shown = self.good("show", "--problem", self.file)
+        self.assertIn("Contacts with a stiffness, one-sided springs without impacts: 1", shown)
+        self.assertRegex(shown, r"force2 +2 u2 +0\.2 +200\n")
+        self.assertRegex(shown, r"\nsprings +1 .*\nspring_contacts +[1-9]")
         times = ("--problem", self.file, "--step", "0.05")
         forces = self.rows_of("respond", *times, "--forces")
         self.assertEqual(list(forces[0]), ["t", "side", "force1", "force2"])

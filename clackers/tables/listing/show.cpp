@@ -5,6 +5,7 @@
 
 #include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/registry.hpp"
+#include "clackers/model/harmonic_load.hpp"
 #include "clackers/model/problem_file.hpp"
 #include "clackers/tables/listing.hpp"
 #include "clackers/tables/listing/show_sheets.hpp"
@@ -117,6 +118,38 @@ std::optional<record::Sheet> closed_sheet(const cases::Case& test_case) {
   return sheet;
 }
 
+// u1 - 2 u2 of the direction (1, -2).
+std::string sum_of(const Eigen::VectorXd& direction) {
+  std::string text;
+  for (Eigen::Index i = 0; i < direction.size(); ++i) {
+    const double factor = direction[i], size = std::abs(factor);
+    if (factor == 0.0) continue;
+    text += text.empty() ? (factor < 0.0 ? "-" : "") : (factor < 0.0 ? " - " : " + ");
+    text += size == 1.0 ? fmt::format("u{}", i + 1) : fmt::format("{:g} u{}", size, i + 1);
+  }
+  return text;
+}
+
+std::optional<record::Sheet> spring_sheet(const cases::Case& test_case) {
+  const auto* springs = model::one_sided_springs(test_case.problem);
+  if (springs == nullptr) return std::nullopt;
+  const auto& contacts = springs->contacts();
+  record::Sheet sheet{
+      "clackers/one-sided-springs/1",
+      fmt::format("Contacts with a stiffness, one-sided springs without impacts: {}",
+                  contacts.size()),
+      {{"force", "", "its column of respond --forces"},
+       {"displacement", "", "direction . u, compressed below the gap"},
+       {"gap", "m", "where it closes"},
+       {"stiffness", "N/m", ""}},
+      {}};
+  for (std::size_t j = 0; j < contacts.size(); ++j)
+    sheet.rows.push_back({fmt::format("force{}", test_case.problem.contacts.size() + j + 1),
+                          sum_of(contacts[j].direction), contacts[j].gap,
+                          springs->stiffnesses()[j]});
+  return sheet;
+}
+
 record::Sheet claim_sheet(const methods::Facts& facts) {
   record::Sheet sheet{"clackers/facts/1",
                       facts.name,
@@ -203,8 +236,8 @@ std::vector<record::Sheet> show_case(std::string_view name, const cases::Setting
                      test_case.indicators.empty() ? "Indicators: none of this case" : "Indicators",
                      test_case.indicators),
       impact_sheet(test_case)};
-  for (auto& more : {closed_sheet(test_case), harmonic_sheet(test_case, threshold),
-                     conditioning_sheet(test_case)})
+  for (auto& more : {closed_sheet(test_case), spring_sheet(test_case),
+                     harmonic_sheet(test_case, threshold), conditioning_sheet(test_case)})
     if (more) sheets.push_back(*more);
   return sheets;
 }
