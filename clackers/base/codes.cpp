@@ -165,7 +165,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"beyond-last-impact", "refusal",
      "The motion has no impact with the requested number."},
     {"no-closed-form", "refusal",
-     "Energies, sensitivities and spectra are known for motions in closed form only."},
+     "Sensitivities and spectra are known for motions in closed form only, points for bars and strings, and forces "
+     "for problems with contacts, springs in their place or dry friction."},
     {"no-derivative", "refusal",
      "The motion does not depend smoothly on this parameter here: "
      "a whole number, the end of the run, or restitution 0. The message says why and what to do."},

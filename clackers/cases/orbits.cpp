@@ -186,6 +186,12 @@ void build_piecewise(Case& test_case, const Values& value, double) {
       {"omega_max", highest, "rad/s", "highest undamped natural frequency without contact"},
       {"error_bound", bound.u.maxCoeff(), "m",
        "of the largest displacement of the reference solution at t_end"}};
+  if (const auto* springs = model::one_sided_springs(test_case.problem))
+    test_case.constants.insert(
+        test_case.constants.begin() + 2,
+        {{"springs", double(springs->contacts().size()), "", "contacts with a stiffness"},
+         {"spring_contacts", double(motion->spring_contacts().size()), "",
+          "number of times that one of them closes up to t_end"}});
   if (motion->impact_count(motion->end()) > 0)
     test_case.constants.push_back({"t_1", motion->impact(1).t, "s", "time of the first impact"});
   add_run(test_case);

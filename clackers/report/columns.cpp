@@ -356,6 +356,8 @@ record::Sheet impact_sheet(const record::Subject& subject) {
     sheet.rows.push_back({one.t, (long long)(one.contact) + 1, one.closing, one.opening,
                           one.restitution, one.restitution_error, one.momentum_defect,
                           one.delay_steps});
+  if (std::ranges::any_of(subject.impacts, [](const auto& one) { return one.contact > 0; }))
+    sheet.title += " (contacts numbered from 1)";
   return sheet;
 }
 

@@ -42,16 +42,21 @@ std::unique_ptr<record::RowSource> respond(const cases::Case& test_case, const T
 /// with the velocities before and after all of them. The case must outlive the rows.
 std::unique_ptr<record::RowSource> impacts(const cases::Case& test_case);
 
+/// Behind a title of impacts with a column contact, whose numbers are those of events files and records; a
+/// person reads numbers from 1 elsewhere.
+inline constexpr std::string_view impact_contacts_note = " (contacts numbered from 0)";
+
 /// Whether infinitely many impacts come before a contact rests.
 bool accumulates(const model::Motion& motion);
 
-/// Where the energy is: t,side,kinetic,potential,dissipated,lost,total,momentum at the times of
-/// respond(), with its two rows at impacts. A motion that is no pair's has neither dissipated nor
-/// total. The case must outlive the rows. Throws InputError as respond() does.
+/// Where the energy is: t,side,kinetic,potential,dissipated,lost[,work],total,momentum at the times of
+/// respond(), with its two rows at impacts; work where loads vary or belts move. The case must outlive
+/// the rows. Throws InputError as respond() does.
 std::unique_ptr<record::RowSource> energies(const cases::Case& test_case, const TimeGrid& grid);
 
-/// The forces of contacts that stay closed [N], t,side,force1[,force2,...] at the times of respond(), 0
-/// for open ones. The case must outlive the rows. Throws InputError as respond() does.
+/// The forces of contacts that stay closed, then of one-sided springs, 0 for open ones, and of dry friction
+/// [N]: t,side[,force1,...][,friction1,...] at the times of respond(). The case must outlive the rows.
+/// Throws InputError as respond() does, and for a case without any of them (no-closed-form).
 std::unique_ptr<record::RowSource> forces(const cases::Case& test_case, const TimeGrid& grid);
 
 /// The motion of a case's bars at places x [m], from -L1 (the far end of the left one of two) or 0 (the

@@ -224,17 +224,21 @@ void add_respond(Grammar& root) {
          "Times in seconds from a text file, one a line, or from the column t of a history; - "
          "reads standard input. What follows # or % is a comment.")
       ->reads_file("FILE");
-  app->add_flag("--impacts", options->impacts,
-                "The impacts instead: k, t [s], u1 [m], velocities before and after [m/s], "
-                "impulse [N s], energy before and after [J].");
+  app->add_flag(
+      "--impacts", options->impacts,
+      "The impacts instead: k, t [s], of several contacts which, from 0, u1 [m], velocities "
+      "before and after [m/s], impulse [N s], energy before and after [J].");
   app->add_flag("--collisions", options->impacts, "The former name of --impacts.");
-  app->add_flag("--energy", options->energy,
-                "At the times, the energy instead: kinetic, potential, dissipated so far, lost at "
-                "impacts so far and their total [J], and the momentum [kg m/s].");
+  app->add_flag(
+      "--energy", options->energy,
+      "At the times, the energy instead: kinetic, potential of springs and constant loads, "
+      "dissipated by dashpots and friction so far, lost at impacts so far, work of loads "
+      "that vary and of belts so far, the total of the first four less the work [J], and the "
+      "momentum [kg m/s].");
   app->add_flag(
       "--forces", options->forces,
-      "At the times, the forces of contacts that stay closed instead: force1, force2, ... "
-      "[N], 0 for open ones; then those of dry friction: friction1, ... [N].");
+      "At the times, the forces of contacts that stay closed, then of one-sided springs, instead: "
+      "force1, force2, ... [N], 0 for open ones; then those of dry friction: friction1, ... [N].");
   app->add_option(
          "--at", options->at,
          "At the times, points of the case's bars or string instead, at x from the contact [m] (of "

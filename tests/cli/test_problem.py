@@ -114,6 +114,85 @@ restitution = 0.5
         self.assertEqual(problem["contacts"], [])
         self.assertEqual(problem["springs"], [{"direction": [1, -1], "gap": 0, "stiffness": 400}])
 
+    def test_forces_of_springs_follow_those_of_contacts(self):
+        self.write("""M = [[1, 0], [0, 1]]
+K = [[2, -1], [-1, 1]]
+end = 20
+[start]
+u = [0.5, 1]
+[[contacts]]
+direction = [0, 2]
+gap = 0.2
+stiffness = 200
+[[contacts]]
+direction = [1, 0]
+restitution = 0.5
+[[loads]]
+dof = 1
+amplitude = -2
+frequency = 0
+""")
+        shown = self.good("show", "--problem", self.file)
+        self.assertIn("Contacts with a stiffness, one-sided springs without impacts: 1", shown)
+        self.assertRegex(shown, r"force2 +2 u2 +0\.2 +200\n")
+        self.assertRegex(shown, r"\nsprings +1 .*\nspring_contacts +[1-9]")
+        times = ("--problem", self.file, "--step", "0.05")
+        forces = self.rows_of("respond", *times, "--forces")
+        self.assertEqual(list(forces[0]), ["t", "side", "force1", "force2"])
+        states = self.rows_of("respond", *times)
+        pressed = held = 0
+        for force, state in zip(forces, states):
+            number = {name: float(state[name]) for name in ("u1", "u2", "a1", "a2")}
+            push, spring = float(force["force1"]), float(force["force2"])
+            self.assertEqual(spring > 0, 2 * number["u2"] < 0.2)
+            self.assertAlmostEqual(2 * spring, number["a2"] + number["u2"] - number["u1"], delta=1e-10)
+            if push > 0:
+                self.assertAlmostEqual(push, 2 + number["a1"] + 2 * number["u1"] - number["u2"], delta=1e-10)
+            pressed, held = pressed + (spring > 0), held + (push > 0)
+        self.assertGreater(min(pressed, held), 5)
+
+    def test_force_of_a_massless_mesh_is_that_of_its_first_element(self):
+        times = ("bar-wall", "--set", "elements=4", "--samples", "81")
+        closed = 0
+        for force, state in zip(self.rows_of("respond", *times, "--forces"), self.rows_of("respond", *times)):
+            expected = 4.0 * max(0.0, -0.25 - float(state["u1"]))
+            self.assertAlmostEqual(float(force["force1"]), expected, places=14)
+            closed += expected > 0.0
+        self.assertGreater(closed, 10)
+
+    def test_forces_of_a_problem_without_any_are_refused(self):
+        self.refused("respond", "sdof", "--forces", "--samples", "3", code="no-closed-form", says="sdof has none of them.")
+        self.refused("respond", "circle-billiard", "--forces", "--samples", "3", code="no-closed-form",
+                     says="but impacts, whose impulses --impacts has")
+
+    def test_tables_say_from_which_number_contacts_count(self):
+        self.write("""M = [[1, 0], [0, 1]]
+K = [[1, 0], [0, 1]]
+end = 20
+[start]
+u = [1, 2]
+[[contacts]]
+direction = [1, 0]
+restitution = 0.5
+[[contacts]]
+direction = [0, 1]
+gap = 0.25
+restitution = 0.5
+""")
+        shown = " ".join(self.good("show", "--problem", self.file).split())
+        self.assertIn("that are resolved (contacts numbered from 0)", shown)
+        self.assertIn("Contacts that stay closed: 1 (contacts numbered from 1)", shown)
+        hits = self.good("respond", "--problem", self.file, "--impacts")
+        self.assertIn("resolved (contacts numbered from 0)", hits.replace("\n", " "))
+        self.assertIn("Impacts of row (contacts numbered from 0)\n", self.good("respond", "row", "--impacts"))
+        history = self.file + ".csv"
+        with open(history, "w", encoding="utf-8") as file:
+            file.write(self.good("respond", "row", "--samples", "2001", "--format", "csv"))
+        self.assertIn("read from its rows (contacts numbered from 1)\n",
+                      self.good("check", history, "--case", "row", "--impacts"))
+        for text in (self.good("show", "stop"), self.good("respond", "stop", "--impacts")):
+            self.assertNotIn("numbered", text)
+
     def test_inadmissible_orbits_are_refused_with_what_to_change(self):
         self.refused("show", "base-excited-pair", "--set", "A_g=1", code="not-admissible",
                      says="With A_g = -1 they do not.")

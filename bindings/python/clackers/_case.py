@@ -343,7 +343,8 @@ class Case:
         Returns
         -------
         Table
-            Columns t, side, kinetic, potential, dissipated, lost, total [J] and momentum, as far as the case has them.
+            Columns t, side, kinetic, potential, dissipated, lost, total [J] and momentum, and work [J] before the total
+            where loads vary or belts move.
             Where a time is the double nearest to an impact two rows stand, side -1 and side 1.
 
         Raises

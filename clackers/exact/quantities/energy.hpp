@@ -9,11 +9,12 @@ namespace clackers::exact {
 /// Where the energy of the start has gone, all in J.
 struct EnergySplit {
   double kinetic = 0.0;     ///< sum of m v^2 / 2
-  double potential = 0.0;   ///< sum of k u^2 / 2
-  double dissipated = 0.0;  ///< by the dashpots so far
+  double potential = 0.0;   ///< sum of k u^2 / 2, and of constant loads
+  double dissipated = 0.0;  ///< by dashpots and friction so far
   double lost = 0.0;        ///< at impacts so far
-  /// Their sum: the energy at the start, at every time.
-  double total() const { return kinetic + potential + dissipated + lost; }
+  double work = 0.0;        ///< of loads that vary and of belts so far
+  /// The energy at the start, at every time.
+  double total() const { return kinetic + potential + dissipated + lost - work; }
 };
 
 /// Energy and momentum of a motion in flights, exact at every time: sums over impacts are

@@ -140,6 +140,19 @@ TEST(ShowCase, ShowsTheFirstImpactsOfManyAndSaysSo) {
   EXPECT_EQ(show_case("sdof", {}, 0.1)[3].title, "Impacts: 0");
 }
 
+TEST(ShowCase, ListsContactsWithAStiffness) {
+  const auto sheets = show_case("bar-between-stops", {{"elements", 4.0}}, 0.1);
+  const auto& springs = sheets[4];
+  EXPECT_EQ(springs.schema, "clackers/one-sided-springs/1");
+  ASSERT_EQ(springs.rows.size(), 2u);
+  EXPECT_EQ(cell(springs, "force1", "displacement"), record::Cell{std::string("u1")});
+  EXPECT_EQ(cell(springs, "force1", "gap"), record::Cell{-0.25});
+  EXPECT_EQ(cell(springs, "force2", "displacement"), record::Cell{std::string("-u3")});
+  EXPECT_EQ(cell(springs, "force2", "stiffness"), record::Cell{4.0});
+  EXPECT_EQ(cell(show_case("penalized-pair", {}, 0.1)[4], "force1", "displacement"),
+            record::Cell{std::string("u1 - u2")});
+}
+
 TEST(ShowCase, RefusesAsTheCaseDoes) {
   EXPECT_NE(refusal([] { show_case("stopp", {}, 0.1); }).find("Did you mean \"stop\"?"),
             std::string::npos);

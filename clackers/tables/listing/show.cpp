@@ -5,6 +5,7 @@
 
 #include "clackers/methods/method_specification.hpp"
 #include "clackers/methods/registry.hpp"
+#include "clackers/model/harmonic_load.hpp"
 #include "clackers/model/problem_file.hpp"
 #include "clackers/tables/listing.hpp"
 #include "clackers/tables/listing/show_sheets.hpp"
@@ -59,6 +60,10 @@ void keep_impacts_alone(record::Sheet& sheet) {
   });
 }
 
+bool has_several_contacts(const cases::Case& test_case) {
+  return test_case.problem.contacts.size() > 1;
+}
+
 record::Sheet impact_sheet(const cases::Case& test_case) {
   const auto rows = impacts(test_case);
   const auto total = test_case.motion->impact_count(test_case.motion->end());
@@ -76,21 +81,24 @@ record::Sheet impact_sheet(const cases::Case& test_case) {
                             "Impacts: the first {} of {}; all: clackers respond {} "
                             "--impacts",
                             sheet.rows.size(), total, test_case.entry->name);
+  if (total > 0 && has_several_contacts(test_case)) sheet.title += impact_contacts_note;
   return sheet;
 }
 
 std::optional<record::Sheet> closed_sheet(const cases::Case& test_case) {
   const auto closed = test_case.motion->closed_contacts();
   if (closed.empty()) return std::nullopt;
-  record::Sheet sheet{"clackers/closed-contacts/1",
-                      fmt::format("Contacts that stay closed: {}", closed.size()),
-                      {{"contact", "", "number of the contact, from 1"},
-                       {"from", "s", "its force begins"},
-                       {"until", "s", "its force ends, or the run"},
-                       {"uncertainty", "s", "of `from`"},
-                       {"begins", "", "how"},
-                       {"ends", "", "how"}},
-                      {}};
+  record::Sheet sheet{
+      "clackers/closed-contacts/1",
+      fmt::format("Contacts that stay closed: {}{}", closed.size(),
+                  has_several_contacts(test_case) ? " (contacts numbered from 1)" : ""),
+      {{"contact", "", "number of the contact, from 1"},
+       {"from", "s", "its force begins"},
+       {"until", "s", "its force ends, or the run"},
+       {"uncertainty", "s", "of `from`"},
+       {"begins", "", "how"},
+       {"ends", "", "how"}},
+      {}};
   for (const auto& c : closed) {
     if (sheet.rows.size() == impacts_shown) break;
     const auto count = test_case.motion->impact_count(c.from);
@@ -107,6 +115,38 @@ std::optional<record::Sheet> closed_sheet(const cases::Case& test_case) {
     sheet.rows.push_back({double(c.contact + 1), c.from, c.until, c.begins.hi - c.begins.lo, begins,
                           std::string(c.opens ? "opens" : "end of the run")});
   }
+  return sheet;
+}
+
+// u1 - 2 u2 of the direction (1, -2).
+std::string sum_of(const Eigen::VectorXd& direction) {
+  std::string text;
+  for (Eigen::Index i = 0; i < direction.size(); ++i) {
+    const double factor = direction[i], size = std::abs(factor);
+    if (factor == 0.0) continue;
+    text += text.empty() ? (factor < 0.0 ? "-" : "") : (factor < 0.0 ? " - " : " + ");
+    text += size == 1.0 ? fmt::format("u{}", i + 1) : fmt::format("{:g} u{}", size, i + 1);
+  }
+  return text;
+}
+
+std::optional<record::Sheet> spring_sheet(const cases::Case& test_case) {
+  const auto* springs = model::one_sided_springs(test_case.problem);
+  if (springs == nullptr) return std::nullopt;
+  const auto& contacts = springs->contacts();
+  record::Sheet sheet{
+      "clackers/one-sided-springs/1",
+      fmt::format("Contacts with a stiffness, one-sided springs without impacts: {}",
+                  contacts.size()),
+      {{"force", "", "its column of respond --forces"},
+       {"displacement", "", "direction . u, compressed below the gap"},
+       {"gap", "m", "where it closes"},
+       {"stiffness", "N/m", ""}},
+      {}};
+  for (std::size_t j = 0; j < contacts.size(); ++j)
+    sheet.rows.push_back({fmt::format("force{}", test_case.problem.contacts.size() + j + 1),
+                          sum_of(contacts[j].direction), contacts[j].gap,
+                          springs->stiffnesses()[j]});
   return sheet;
 }
 
@@ -196,8 +236,8 @@ std::vector<record::Sheet> show_case(std::string_view name, const cases::Setting
                      test_case.indicators.empty() ? "Indicators: none of this case" : "Indicators",
                      test_case.indicators),
       impact_sheet(test_case)};
-  for (auto& more : {closed_sheet(test_case), harmonic_sheet(test_case, threshold),
-                     conditioning_sheet(test_case)})
+  for (auto& more : {closed_sheet(test_case), spring_sheet(test_case),
+                     harmonic_sheet(test_case, threshold), conditioning_sheet(test_case)})
     if (more) sheets.push_back(*more);
   return sheets;
 }

@@ -48,9 +48,10 @@ class ImpactRows : public record::NumberRows {
 
   std::string schema() const override { return "clackers/impacts/1"; }
   std::string title() const override {
+    const auto note = names_contact_ ? impact_contacts_note : "";
     if (accumulates(motion_))
-      return fmt::format("Impacts of {}: infinitely many; those that are resolved", name_);
-    if (total_ > 0) return "Impacts of " + name_;
+      return fmt::format("Impacts of {}: infinitely many; those that are resolved{}", name_, note);
+    if (total_ > 0) return fmt::format("Impacts of {}{}", name_, note);
     return fmt::format("Impacts of {}: none until the end of its run, {} s", name_, motion_.end());
   }
   const std::vector<record::Column>& columns() const override { return columns_; }

@@ -1,7 +1,9 @@
 // Rows of energies, sensitivities and spectra, and what `show` prints of harmonics and conditioning.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/exact/quantities/energy.hpp"
@@ -162,13 +164,74 @@ TEST(EnergyRows, OfAnyMotionAreThoseOfItsStatesAndImpacts) {
   toy.problem.system.mass = Eigen::Vector3d(1.0, 2.0, 3.0).asDiagonal();
   toy.problem.system.stiffness = 2.0 * Eigen::Matrix3d::Identity();
   const auto rows = energies(toy, {0.0, 0, 0.0, {0.5, 1.0, 3.0}});
-  EXPECT_EQ(names(*rows), "t,side,kinetic,potential,lost,momentum");
+  EXPECT_EQ(names(*rows), "t,side,kinetic,potential,dissipated,lost,total,momentum");
   const record::Cell minus{std::string("-")}, plus{std::string("+")};
-  const Rows expected{{0.5, record::Cell{}, 18.0, 3.5, 0.0, 14.0},
-                      {1.0, minus, 18.0, 14.0, 0.0, 14.0},
-                      {1.0, plus, 18.0, 14.0, 1.0, 14.0},
-                      {3.0, record::Cell{}, 18.0, 126.0, 4.0, -14.0}};
+  const Rows expected{{0.5, record::Cell{}, 18.0, 3.5, 0.0, 0.0, 21.5, 14.0},
+                      {1.0, minus, 18.0, 14.0, 0.0, 0.0, 32.0, 14.0},
+                      {1.0, plus, 18.0, 14.0, 0.0, 1.0, 33.0, 14.0},
+                      {3.0, record::Cell{}, 18.0, 126.0, 0.0, 4.0, 148.0, -14.0}};
   EXPECT_EQ(all(*rows), expected);
+}
+
+// In units of 2^-52 of the largest energy: what rounding of phases up to 200 rad, and the bends of springs and
+// friction that are found to it, may leave.
+constexpr double balance_units = 1000.0;
+
+TEST(EnergyRows, OfEveryCaseBalanceAtAllTimes) {
+  std::map<std::string, cases::Settings> settings{
+      {"pressed-oscillator", {{"c", 0.3}, {"f1", 0.3}}},  // damping, both loads, and rest
+      {"oblique-disk", {{"eta", 0.2}}},                   // slides on the floor
+      {"penalized-pair", {{"xi1", 0.5}}},
+      {"bar-wall", {{"mass", "lumped"}, {"eta", 0.5}}}};
+  for (const auto& entry : cases::entries()) {
+    const auto& name = entry.name;
+    const auto test_case = cases::make(name, settings[name]);
+    const auto rows = energies(test_case, grid_of(61, test_case.motion->end()));
+    std::size_t total = 0;
+    while (rows->columns()[total].name != "total") ++total;
+    const auto table = all(*rows);
+    const auto number = [&](std::size_t row, std::size_t column) {
+      return record::number_in(table[row][column]);
+    };
+    double largest = 0.0;
+    for (std::size_t k = 0; k < table.size(); ++k)
+      largest = std::max(largest, std::abs(number(k, 2)) + std::abs(number(k, 3)));
+    for (std::size_t k = 1; k < table.size(); ++k) {
+      EXPECT_NEAR(number(k, total), number(0, total), balance_units * 0x1p-52 * largest)
+          << name << " at " << number(k, 0) << " s";
+      for (const std::size_t rising : {4U, 5U})
+        EXPECT_GE(number(k, rising), number(k - 1, rising) - 1e-14 * largest) << name;
+    }
+  }
+}
+
+TEST(EnergyRows, HaveThePotentialOfAWeightAndTheWorkOfLoadsAndBelts) {
+  const auto last = [](const char* name, const cases::Settings& settings) {
+    const auto test_case = cases::make(name, settings);
+    const auto rows = energies(test_case, grid_of(2, test_case.motion->end()));
+    std::map<std::string, double> values;
+    for (const auto& row : all(*rows))
+      for (std::size_t i = 0; i < row.size(); ++i)
+        values[rows->columns()[i].name] = record::number_in(row[i]);
+    return values;
+  };
+  // A ball of 1 kg, 2 m high.
+  const auto ball = cases::make("ball", {{"h0", 2.0}, {"g", 10.0}});
+  EXPECT_EQ(all(*energies(ball, {0.0, 0, 0.0, {0.0}}))[0][3], record::Cell{20.0});
+  // A period of J. P. den Hartog's motion: 4 F A of work, all of it to friction.
+  const double W = 0.8, F = 0.4;
+  auto values = last("forced-slider", {{"W", W}, {"F", F}, {"t_end", 2.0 * M_PI / W}});
+  const auto slider = cases::make("forced-slider", {{"W", W}, {"F", F}});
+  const double loss = 4.0 * F * slider.problem.start.u[0];
+  EXPECT_NEAR(values["dissipated"], loss, 1e-13);
+  EXPECT_NEAR(values["work"], loss, 1e-13);
+  // Half swings of the widths 2 (x0 - d), 2 (x0 - 3 d), ... under F = 1/8, d = F/k, until it rests at 0.
+  values = last("slider", {{"F", 0.125}});
+  EXPECT_NEAR(values["dissipated"], 0.125 * 2.0 * (0.875 + 0.625 + 0.375 + 0.125), 1e-14);
+  // While it sticks the belt does the work of the spring: from u = 0 to 1.
+  values = last("belt", {{"V", 0.25}, {"t_end", 4.0}});
+  EXPECT_EQ(values["dissipated"], 0.0);
+  EXPECT_NEAR(values["work"], 0.5, 1e-14);
 }
 
 TEST(QuantityRows, NeedAClosedFormAndTimesInsideTheRun) {
