@@ -73,7 +73,7 @@ TEST(Identities, VelocityIsTheIntegralOfAccelerationAndDisplacementThatOfVelocit
     const double fastest = fastest_of(motion), T = motion.constants().period;
     // Anywhere in the first flights, away from impacts.
     const double a = T * (std::floor(box.uniform(0.0, 5.0)) + box.uniform(0.51, 1.2));
-    const double b = a + box.uniform(0.1, 2.0) / fastest * std::min(1.0, 0.25 * T * fastest);
+    const double b = a + box.uniform(0.05, 1.0) * std::min(2.0 / fastest, 0.25 * T);
     const auto sums = integrals(motion, a, b, fastest);
     const auto from = motion.at(a, Side::right), to = motion.at(b, Side::right);
     const auto e = motion.envelope(a);

@@ -270,8 +270,12 @@ Assessment judge(const measure::Ladder& ladder, const Claim& claim, const JudgeC
   context.saturation = std::numeric_limits<double>::infinity();
   found.impact_time = fit(ladder, context, impact_time_error);
 
+  // Impacts won and lost make errors as large as a floor.
+  const bool is_of_impacts =
+      shows_a_line(found.displacement) ||
+      (is_unexplained_floor(found.displacement) && found.displacement.floor > large_error);
   if (const int first = first_counted(ladder);
-      first > found.displacement.first_level && shows_a_line(found.displacement) &&
+      first > found.displacement.first_level && is_of_impacts &&
       compare(found.displacement, claim, facts) != Verdict::agrees)
     found.displacement = from_level(ladder, first, of_displacement, found.displacement);
   // Coarse steps whose errors fall faster hide an envelope of lower order, and those whose errors are as

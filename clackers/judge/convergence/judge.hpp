@@ -103,8 +103,9 @@ struct JudgeContext {
 ///     reduced                       a straight line of the very order that is claimed as reduced
 ///     what fit_ladder found         otherwise
 ///
-/// Where a line or an envelope does not agree, it is that of the levels behind those at which more than
-/// a quarter of the runs miscount impacts with errors above `large_error`, but for a finest level of that
+/// Where a line, an envelope or an unexplained floor above `large_error` does not agree, it is that of the
+/// levels behind those at which more than a quarter of the runs miscount impacts with errors above
+/// `large_error`, but for a finest level of that
 /// kind. Where an envelope that is claimed does not agree, that of the finer half of the levels counts: if
 /// it no longer falls too fast, or if its whole interval is above the slope of all levels and it agrees.
 ///

@@ -461,6 +461,27 @@ TEST(Judge, AnEnvelopeBeginsBehindTheLevelsThatMiscountImpacts) {
   EXPECT_EQ(found(4, 8).reason, "too-few-levels");
 }
 
+// While impacts are won and lost, errors stand as if at a floor.
+TEST(Judge, AFloorOfMiscountedImpactsIsNone) {
+  const auto found = [](std::size_t miscounting, double size = 0.06) {
+    const auto error = [&](double h) {
+      const double finer = 16.0 * h / 0.05;
+      return size * (finer > 1.01 ? 1.0 + 0.3 * std::sin(1.0 / h) : finer);
+    };
+    auto ladder = scores(error, {.levels = 5});
+    for (std::size_t i = 0; i < miscounting; ++i)
+      for (auto& run : ladder[i].runs) run.impacts = measure::ImpactScore{6, 7, 6, 0, 1};
+    return judge(ladder, {Behaviour::proper, 1.0, ""});
+  };
+  EXPECT_EQ(found(0).displacement.behaviour, Behaviour::stagnating);
+  EXPECT_EQ(found(0).verdict, Verdict::disagrees);
+  EXPECT_EQ(found(4).displacement.behaviour, Behaviour::undecided);
+  EXPECT_EQ(found(4).verdict, Verdict::undecided);
+  EXPECT_EQ(found(4).reason, "too-few-levels");
+  EXPECT_EQ(found(5).verdict, Verdict::disagrees) << "on the finest level, too";
+  EXPECT_EQ(found(4, 0.009).verdict, Verdict::disagrees) << "small errors";
+}
+
 TEST(Judge, AnOpenEnvelopeOfLargeErrorsAsksForFinerLevels) {
   const auto reason = [](double scale) {
     Scatter wild(30.0, 4);
