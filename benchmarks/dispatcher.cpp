@@ -30,7 +30,7 @@ long long give_all(cli::MpiTransport& mpi, campaign::Dispatcher& dispatcher) {
   return tasks;
 }
 
-int measure(cli::MpiTransport& mpi, long long tasks) {
+int time_of_tasks(cli::MpiTransport& mpi, long long tasks) {
   constexpr double no_time = 1e-12;  // [s]: no rank gets more than one task at a time
   campaign::Dispatcher dispatcher({{0, tasks}}, {mpi.size(), 1, no_time});
   const auto start = campaign::steady_seconds();
@@ -52,7 +52,7 @@ int work(cli::MpiTransport& mpi) {
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   const auto mpi = cli::start_mpi(campaign::launch_of_process());
-  const int exit_code = mpi->rank() == 0 ? measure(*mpi, std::atoll(argv[1])) : work(*mpi);
+  const int exit_code = mpi->rank() == 0 ? time_of_tasks(*mpi, std::atoll(argv[1])) : work(*mpi);
   mpi->finish();
   return exit_code;
 }
