@@ -67,6 +67,13 @@ MetricValue momentum_error(const Comparison& comparison);
 /// Valid across jumps: yes, displacements do not jump. Source: common.
 MetricValue penetration(const Comparison& comparison);
 
+enum class Rest { gap, speed };
+/// max |g| [m] or |b . v| [m/s] over the rows of the later half of each time in which the reference has the
+/// contact closed: what goes on bouncing. Not measured where none stays closed.
+///
+/// Valid across jumps: yes, no impact is left in that half. Source: common.
+MetricValue rest_error(const Comparison& comparison, Rest rest);
+
 /// The history against the reference in one flight, shifted so that both start together.
 struct FlightError {
   long long after = 0;       ///< the true impact it starts with; 0: the start of the motion

@@ -91,6 +91,10 @@ std::vector<Metric> all_metrics() {
      not_across, "common", on_request, momentum_error},
     {"penetration-max", "m", "max(-g, 0) over rows, g = b.u - gap",
      across, "common", shown, penetration},
+    {"rest-gap-max", "m", "max |g| over rows of the later half of each time in which the contact stays closed",
+     across, "common", on_request, [](const Comparison& of) { return rest_error(of, Rest::gap); }},
+    {"rest-speed-max", "m/s", "the same of b.v: a contact that should be at rest goes on bouncing",
+     across, "common", on_request, [](const Comparison& of) { return rest_error(of, Rest::speed); }},
     // Impact against impact, at the time that each motion gives it.
     {"impact-time-max", "s", "max |t_k - t_k*| over matched impacts",
      across, "event-aligned, common", shown, impact_time_error},

@@ -70,4 +70,30 @@ MetricValue penetration(const Comparison& comparison) {
   return measured(deepest);
 }
 
+// In the earlier half impacts that are late, or the last of many, may still come.
+MetricValue rest_error(const Comparison& comparison, Rest rest) {
+  if (rest == Rest::speed && !comparison.has_velocities())
+    return not_measured("The history has no velocities.");
+  const auto& history = comparison.history();
+  const auto dof = Eigen::Index(comparison.dof());
+  double worst = 0.0;
+  bool any = false;
+  for (const auto& closed : comparison.reference().closed_contacts()) {
+    const auto& contact = comparison.problem().contacts[std::size_t(closed.contact)];
+    const double from = 0.5 * (closed.from + closed.until);
+    const auto first = std::ranges::lower_bound(history.t, from) - history.t.begin(),
+               last = std::ranges::upper_bound(history.t, closed.until) - history.t.begin();
+    for (auto i = first; i < last; ++i) {
+      const auto row = [&](const std::vector<double>& values) {
+        return Eigen::Map<const Eigen::VectorXd>(&values[std::size_t(i * dof)], dof);
+      };
+      const double size =
+          rest == Rest::gap ? contact.gap_at(row(history.u)) : contact.gap_rate(row(history.v));
+      worst = std::max(worst, std::abs(size));
+      any = true;
+    }
+  }
+  return any ? measured(worst) : not_measured("No contact stays closed.");
+}
+
 }  // namespace clackers::measure

@@ -106,5 +106,43 @@ TEST(Penetration, IsTheDeepestOfAllContactsAndTimes) {
             "The problem has no contact.");
 }
 
+// The toy with contact 1 at u1 - u2 = 0.4 closed from 2 to 6 s.
+class Resting : public ToyMotion {
+ public:
+  std::vector<model::ClosedContact> closed_contacts() const override {
+    model::ClosedContact closed;
+    closed.from = 2.0;
+    closed.until = 6.0;
+    return {closed};
+  }
+};
+
+TEST(RestError, IsThatOfTheLaterHalfOfAClosedContact) {
+  const Resting reference;
+  auto problem = toy_problem();
+  problem.contacts[0].gap = 0.4;
+  auto history = history_of(reference, {0.0, 3.0, 4.5, 5.5, 7.0});
+  for (std::size_t i = 0; i < 5; ++i) {
+    history.u[2 * i] = history.u[2 * i + 1] + 0.4;
+    history.v[2 * i] = history.v[2 * i + 1];
+  }
+  const auto both = [&] {
+    const Comparison comparison(history, reference, problem);
+    return std::pair(rest_error(comparison, Rest::gap).value,
+                     rest_error(comparison, Rest::speed).value);
+  };
+  EXPECT_NEAR(both().first, 0.0, 1e-15);
+  for (const std::size_t outside : {0, 1, 4})
+    history.u[2 * outside] += 1.0, history.v[2 * outside] += 1.0;
+  EXPECT_NEAR(both().first, 0.0, 1e-15);
+  EXPECT_NEAR(both().second, 0.0, 1e-15);
+  history.u[4] -= 0.125;
+  history.v[6] += 0.25;
+  EXPECT_NEAR(both().first, 0.125, 1e-15);
+  EXPECT_NEAR(both().second, 0.25, 1e-15);
+  const Comparison of_none(history, structure_reference, problem);
+  EXPECT_EQ(rest_error(of_none, Rest::gap).reason, "No contact stays closed.");
+}
+
 }  // namespace
 }  // namespace clackers::measure
