@@ -150,6 +150,7 @@ void PiecewiseMotion::Builder::start() {
                          std::sqrt(stiffnesses_[i - springs()] * contact.direction.dot(response)));
   }
   const auto n = m_.dof();
+  fastest_ = problem_.start.v.cwiseAbs().maxCoeff();
   State state{regime(closed), problem_.start.t, {}, {}};
   const auto& modes = m_.regimes_[state.regime];
   state.errors = FlightErrors(modes, m_.end_);

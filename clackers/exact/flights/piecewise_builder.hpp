@@ -174,7 +174,8 @@ class PiecewiseMotion::Builder {
   State seen_in(std::size_t regime, const State& state) const;
   /// Held contacts whose force ends.
   void release(const std::vector<Closing>& closings);
-  /// Contact i rebounds with impacts that accumulate: rest follows where that is certain.
+  /// Contact i rebounds with impacts that accumulate: rest follows where that is certain. Throws InputError
+  /// where the impacts that are left out are not small.
   bool come_to_rest(std::size_t i, double level, bool is_resolved);
   /// Contact i lands without a speed that can be seen.
   void land(const Closing& closing);
@@ -207,6 +208,7 @@ class PiecewiseMotion::Builder {
   std::shared_ptr<certified::FlightsEnclosure> balls_;
   double bytes_ = 0.0;    // of the errors of all flights
   bool is_over_ = false;  // nothing collides any more
+  double fastest_ = 0.0;  // speed of a mass so far, at the start and before impacts
   std::string no_rest_;   // why impacts that accumulate were not seen to end in rest
 };
 

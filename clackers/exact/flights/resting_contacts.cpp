@@ -149,6 +149,15 @@ bool PiecewiseMotion::Builder::come_to_rest(std::size_t i, double level, bool is
   const double height = 0.5 * speed * speed / least * (1.0 + beta);
   auto skipped = left_out({i, seconds, height, speed * (1.0 + 4.8 * beta), most}, now, held);
   if (!skipped) return false;
+  constexpr double most_skipped = 1e-3;
+  if (m_.has_bounds_ && speed > most_skipped * fastest_)
+    throw InputError(
+        fmt::format(
+            "{}: impacts of contact {} accumulate, and from t = {:.9g} s on their height of {:.3g} m is too "
+            "close to its error of {:.3g} m for them to be followed; allowed: impacts that are followed down to "
+            "{:g} of the largest speed. End the run earlier.",
+            m_.who_, i + 1, t, height, level, most_skipped),
+        "not-admissible");
 
   // The sum of the flights to second order in the speed; docs/manual/explanation/derivations.
   const VectorXd response = this->modes().velocity(row(i).impulse) / w;
