@@ -199,7 +199,7 @@ void PiecewiseMotion::Builder::begin(State state) {
   m_.flights_.push_back({t, regime, z - m_.regimes_[regime].steady(t), std::move(errors)});
   begins_ = std::exchange(opens_, std::vector<Begin>(springs(), Begin::open));
   for (std::size_t i = 0; i < springs(); ++i)
-    if (is_held(i)) begins_[i] = Begin::open;
+    if (is_held(i) && begins_[i] != Begin::idle) begins_[i] = Begin::open;
   const auto states = ForcedModes::states(flight().free);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const bool is_behind = is_spring(i) ? closed_[flight().regime][i] : passed_[i];

@@ -52,8 +52,9 @@ class PiecewiseMotion::Builder {
     double first() const { return s - time_error; }
     double last() const { return s + time_error; }
   };
-  /// How the gap of a contact begins in a flight: the derivatives below this order are 0.
-  enum class Begin { open, by_speed, by_acceleration, by_jerk };
+  /// How the gap of a contact begins in a flight: the derivatives below this order are 0. An idle one is held, and its
+  /// force is 0 up to the end of the flight.
+  enum class Begin { open, by_speed, by_acceleration, by_jerk, idle };
   /// z in a regime, the error of it, and that of the instant where an impact sets it.
   struct State {
     std::size_t regime = 0;
@@ -170,6 +171,9 @@ class PiecewiseMotion::Builder {
   /// negative open. By accelerations, and where those leave it undecided, by their rates.
   std::size_t resting(const State& state, const std::vector<std::size_t>& contacts);
   std::size_t resting_by_jerk(const State& state, const std::vector<std::size_t>& contacts);
+  /// The regime in which these contacts, of which no derivative is certain, are held without a force; refused where
+  /// that is not proven.
+  std::size_t resting_idle(const State& state, const std::vector<std::size_t>& contacts);
   /// The same instant in another regime.
   State seen_in(std::size_t regime, const State& state) const;
   /// Held contacts whose force ends.
