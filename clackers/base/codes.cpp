@@ -115,9 +115,10 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "The frequency ratio X must be an odd whole number, or 1 over one; "
      "only then do both masses pass equilibrium together at every impact."},
     {"not-admissible", "refusal",
-     "The mass ratio r reaches r*(X): "
-     "the masses would also touch away from equilibrium and the closed form would not hold. "
-     "The message says where and when, and what to change."},
+     "With these values the motion is not of the kind that is computed, or not certain. A closed form may not hold: "
+     "masses would also touch elsewhere, such as a pair whose mass ratio r reaches r*(X), or stop on the way. "
+     "Or an event that decides the motion is too close to the error: a graze, two impacts at almost one time, a contact that comes to rest, "
+     "opens or touches without a force. The message says where and when, and what to change."},
     {"not-exact-data", "refusal",
      "With these values some model input is not exactly a binary64 number, so a solver would not get the true system. "
      "Use short binary fractions."},

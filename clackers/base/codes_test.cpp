@@ -51,5 +51,12 @@ TEST(Codes, ACodeKnowsItsNameAndMeaning) {
   EXPECT_FALSE(code == Code("out-of-range"));
 }
 
+// Exact motions give this code to every event that is not certain.
+TEST(Codes, NotAdmissibleNamesClosedFormsAndEvents) {
+  const auto meaning = Code("not-admissible").meaning();
+  for (const auto* word : {"r*(X)", "graze", "two impacts", "comes to rest", "opens"})
+    EXPECT_NE(meaning.find(word), std::string_view::npos) << word;
+}
+
 }  // namespace
 }  // namespace clackers

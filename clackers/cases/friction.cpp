@@ -74,20 +74,20 @@ void build_forced_slider(Case& test_case, const Values& value, double) {
 
 void build_disk(Case& test_case, const Values& value, double) {
   exact::ObliqueDiskParameters p;
-  p.h0 = within(test_case, value, "h0", 0.0);
-  p.v0 = within(test_case, value, "v0", -1e30);
+  p.height.h0 = within(test_case, value, "h0", 0.0);
+  p.height.v0 = within(test_case, value, "v0", -1e30);
   p.vx0 = within(test_case, value, "vx0", -1e30);
   p.w0 = within(test_case, value, "w0", -1e30);
-  p.g = within(test_case, value, "g");
-  p.eta = value("eta");
+  p.height.g = within(test_case, value, "g");
+  p.height.eta = value("eta");
   p.mu = within(test_case, value, "mu", 0.0);
   p.beta = within(test_case, value, "beta");
-  p.end = end_of(test_case, value);
+  p.height.end = end_of(test_case, value);
   const auto motion = std::make_shared<const exact::ObliqueDisk>(p, test_case.entry->name);
   test_case.problem = motion->problem();
   test_case.motion = motion;
   test_case.plane = 0.0;
-  test_case.damped_periods.assign(3, 2.0 * motion->speed() / p.g);
+  test_case.damped_periods.assign(3, 2.0 * motion->speed() / p.height.g);
   const double end = motion->end();
   test_case.constants = {
       {"m", 1.0, "kg", "the mass, of no influence"},

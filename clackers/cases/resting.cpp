@@ -8,6 +8,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/cases/row.hpp"
 #include "clackers/exact/flights/piecewise_motion.hpp"
+#include "clackers/exact/orbit/bouncing_ball.hpp"
 #include "clackers/exact/orbit/circle_billiard.hpp"
 #include "clackers/exact/pair/parameters.hpp"
 #include "clackers/model/harmonic_load.hpp"
@@ -29,9 +30,7 @@ void add_rest(std::vector<Quantity>& list, double t) {
   list.push_back({"t_rest", t, "s", "the impacts accumulate here, and the contact stays closed"});
 }
 
-void use_flights(Case& test_case) {
-  const auto motion =
-      std::make_shared<const exact::PiecewiseMotion>(test_case.problem, test_case.entry->name);
+void use(Case& test_case, const std::shared_ptr<const model::Motion>& motion) {
   test_case.motion = motion;
   const double end = motion->end();
   test_case.constants.insert(
@@ -43,6 +42,11 @@ void use_flights(Case& test_case) {
        {"t_end", end, "s", "end of the run"},
        {"impacts", double(motion->impact_count(end)), "",
         "number of impacts up to t_end; of those that accumulate the resolved ones"}});
+}
+
+void use_flights(Case& test_case) {
+  use(test_case,
+      std::make_shared<const exact::PiecewiseMotion>(test_case.problem, test_case.entry->name));
 }
 
 model::ImpactProblem<> mass_above_stop(double m, double c, double k, double eta,
@@ -59,32 +63,22 @@ model::ImpactProblem<> mass_above_stop(double m, double c, double k, double eta,
 
 void build_ball(Case& test_case, const Values& value, double) {
   const auto& who = test_case.entry->name;
-  const double h0 = require_within(who, "h0", value("h0"), 0.0, 1e30),
-               v0 = require_within(who, "v0", value("v0"), -1e30, 1e30),
-               g = require_within(who, "g", value("g"), 1e-30, 1e30), eta = value("eta");
-  if (!(eta >= 0.0 && eta < 1.0))
-    refuse(who, "eta", eta, "0 <= eta < 1",
-           eta == 1.0 ? "An elastic ball never comes to rest; for restitution 1 use "
-                        "pressed-oscillator with k = 0."
-                      : "");
-  if (!(h0 > 0.0 || v0 > 0.0))
-    refuse(who, "v0", v0, "v0 > 0 where h0 = 0", "The ball starts on the floor.");
-  auto& problem = test_case.problem;
-  problem = mass_above_stop(1.0, 0.0, 0.0, eta, {{0, -g, 0.0, 0.0}});
-  problem.start = {0.0, VectorXd::Constant(1, h0), VectorXd::Constant(1, v0)};
-  problem.end = end_of(test_case, value);
-  const double V = std::hypot(v0, std::sqrt(2.0 * g * h0));
-  // (v0 + V)/g without cancellation.
-  const double t_1 = v0 > 0.0 ? (v0 + V) / g : 2.0 * h0 / (V - v0);
-  test_case.damped_periods = {2.0 * V / g};
+  const exact::BallParameters p{require_within(who, "h0", value("h0"), 0.0, 1e30),
+                                require_within(who, "v0", value("v0"), -1e30, 1e30),
+                                require_within(who, "g", value("g"), 1e-30, 1e30), value("eta"),
+                                end_of(test_case, value)};
+  const auto motion = std::make_shared<const exact::BouncingBall>(p, who);
+  test_case.problem = motion->problem();
+  const double V = motion->speed(), once = 1.0 - p.eta;
+  test_case.damped_periods = {2.0 * V / p.g};
   test_case.constants = {{"m", 1.0, "kg", "the mass, of no influence"},
                          {"V", V, "m/s", "speed before the first impact; V eta^j after the j-th"},
-                         {"t_1", t_1, "s", "time of the first impact"}};
-  add_rest(test_case.constants, t_1 + 2.0 * V / g * (eta / (1.0 - eta)));
+                         {"t_1", motion->first_impact(), "s", "time of the first impact"}};
+  add_rest(test_case.constants, motion->rest().nearest());
   test_case.constants.push_back(
-      {"impulse", V * ((1.0 + eta) / (1.0 - eta)), "N s", "sum of all impulses up to t_rest"});
+      {"impulse", V * ((1.0 + p.eta) / once), "N s", "sum of all impulses up to t_rest"});
   test_case.constants.push_back({"lost", 0.5 * V * V, "J", "energy lost at all impacts"});
-  use_flights(test_case);
+  use(test_case, motion);
 }
 
 // sum over j >= 0 of atan(x eta^j): terms until x eta^j <= 1/2, then the power series of the rest,

@@ -9,6 +9,7 @@
 #include "clackers/cases/testing/constants.hpp"
 #include "clackers/exact/certified/digits.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
+#include "clackers/numerics/wide.hpp"
 
 // The cases that come to rest, against sums of their flights that use neither modes nor closed sums.
 namespace clackers::cases {
@@ -89,6 +90,35 @@ TEST(RestingCases, BallsRestWhenTheirFlightsAreOver) {
     EXPECT_NEAR(constant(ball, "impulse"), double(known.impulse), 1e-14 * double(known.impulse));
     EXPECT_NEAR(constant(ball, "lost"), double(known.V * known.V / 2),
                 1e-15 * double(known.V * known.V));
+  }
+}
+
+// By the time that is left until rest, in the unit that the first flight begins with.
+TEST(RestingCases, BallsOfEachRestitutionAreRightToRounding) {
+  using numerics::WideReal;
+  const WideReal g = 9.81, V = sqrt(2 * g);
+  for (const double eta : {0.5, 0.9, 0.999, 0.9999, 1.0 - 1e-9}) {
+    const WideReal once = 1 - WideReal(eta), rest = V / g * (1 + WideReal(eta)) / once;
+    const double end = 2.0 * double(rest);
+    const auto ball = make("ball", {{"eta", eta}, {"t_end", end}});
+    for (const double share : {0.3, 0.6143, 0.9, 0.999, 1.0 - 1e-5, 1.5}) {
+      const double t = share * double(rest);
+      SCOPED_TRACE(testing::Message() << "eta = " << eta << ", t = " << t);
+      const WideReal left = (rest - t) * once * g / (2 * V);
+      long long j = share > 1.0 ? 0 : static_cast<long long>(log(left) / log(WideReal(eta)));
+      while (share < 1.0 && left <= pow(WideReal(eta), j + 1)) ++j;
+      const WideReal power = share > 1.0 ? WideReal(0) : pow(WideReal(eta), j),
+                     rho = share > 1.0 ? WideReal(1) : left / power;
+      const double u = double(power * power * 4 / (once * once) * (1 - rho) * (rho - eta)),
+                   v = double(power * V * (1 - 2 * (1 - rho) / once));
+      const auto state = ball.motion->at(t, model::Side::right),
+                 bound = ball.motion->error_bound(t);
+      EXPECT_NEAR(state.u[0], u, bound.u[0]);
+      EXPECT_NEAR(state.v[0], v, bound.v[0]);
+      EXPECT_LE(bound.u[0], 0x1.01p-53 * u + 0x1p-57);
+      EXPECT_LE(bound.v[0], 0x1.01p-53 * std::abs(v) + 0x1p-57);
+      EXPECT_EQ(ball.motion->impact_count(t), share > 1.0 ? ball.motion->impact_count(end) : j);
+    }
   }
 }
 

@@ -14,6 +14,7 @@
 #include "clackers/exact/orbit/forced_pair.hpp"
 #include "clackers/exact/testing/taylor_simulator.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
+#include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::certified {
 namespace {
@@ -409,6 +410,38 @@ TEST(Digits, AreRefusedWhereContactsAreHeld) {
   ASSERT_FALSE(motion.closed_contacts().empty());
   Digits digits(motion, 20);
   EXPECT_REFUSED(digits.at(8.0, Side::right), "no-enclosure", "held");
+}
+
+model::ImpactProblem<> pressed_masses(const Eigen::VectorXd& mass, double gap, double force) {
+  const auto n = mass.size();
+  model::ImpactProblem<> problem;
+  problem.system.mass = problem.system.stiffness = mass.asDiagonal();
+  problem.system.damping = Eigen::MatrixXd::Zero(n, n);
+  std::vector<model::HarmonicForce> forces;
+  for (int i = 0; i < n; ++i) {
+    problem.contacts.push_back({Eigen::VectorXd::Unit(n, i), gap, 0.5});
+    forces.push_back({i, force, 0.0, 0.0});
+  }
+  problem.system.add_load = model::HarmonicLoad(forces);
+  problem.start = {0.0, Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n)};
+  problem.end = 10.0;
+  return problem;
+}
+
+TEST(Digits, EnergiesHalfwayBetweenDecimalNumbersAreRoundedToEven) {
+  const PiecewiseMotion motion(pressed_masses(Eigen::VectorXd::Ones(1), 0.0, -0.5));
+  Digits digits(motion, 20);
+  EXPECT_EQ(digits.impact(16).energy_before, "9.3132257461547851562e-10");  // 2^-30
+  EXPECT_EQ(digits.impact(16).energy_after, "2.3283064365386962891e-10");   // 2^-32
+}
+
+TEST(Digits, RefusalsNameTheirReason) {
+  const PiecewiseMotion rests(pressed_masses(Eigen::VectorXd::Ones(1), 0.0, -0.5)),
+      meets(pressed_masses(Eigen::Vector2d(1.0, 2.0), 0.5, 0.0));
+  EXPECT_REFUSED(Digits(rests, 20).at(5.75515, model::Side::right), "no-enclosure",
+                 "digits: a contact is held; allowed: times before");
+  EXPECT_REFUSED(Digits(meets, 20).at(3.0, model::Side::right), "no-enclosure",
+                 "digits: contacts close together by chance; allowed: motions of impacts");
 }
 
 // After a slow impact the phase of mass 1 has an error of 1e-10; whether it meets mass 2 at the least distance of

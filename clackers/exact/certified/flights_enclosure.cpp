@@ -5,31 +5,86 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 #include "clackers/base/error.hpp"
 
 namespace clackers::certified {
 
+namespace {
+
+// Of the fraction of whole numbers that a double is.
+double bits_of(double x) {
+  int exponent = 0, bits = 53;
+  auto whole = static_cast<long long>(std::ldexp(std::frexp(std::abs(x), &exponent), bits));
+  if (whole == 0) return 0.0;
+  for (; whole % 2 == 0; whole /= 2) --bits;
+  return bits + std::abs(exponent - bits);
+}
+
+}  // namespace
+
+bool FlightsEnclosure::is_undamped() const {
+  const auto& problem = motion_.problem();
+  const auto* load = problem.system.add_load.target<model::HarmonicLoad>();
+  return motion_.dof() == 1 && problem.system.damping.isZero(0.0) &&
+         model::one_sided_springs(problem) == nullptr &&
+         (load == nullptr || std::ranges::all_of(load->forces(), [](const auto& f) {
+            return f.frequency == 0.0 && f.phase == 0.0;
+          }));
+}
+
+// Energies and impulses, squared, are polynomials of degree 8 at most in the numbers of the problem, divided by as many; each
+// impact multiplies speeds by a restitution.
+double FlightsEnclosure::fraction_bits(long long flights) const {
+  if (!is_undamped()) return 16384.0 + 4400.0 * motion_.dof();
+  const auto& problem = motion_.problem();
+  double bits = 4.0 + bits_of(problem.system.mass(0, 0)) + bits_of(problem.system.stiffness(0, 0)) +
+                bits_of(problem.start.u[0]) + bits_of(problem.start.v[0]),
+         restitution = 0.0;
+  if (const auto* load = problem.system.add_load.target<model::HarmonicLoad>())
+    for (const auto& force : load->forces()) bits += bits_of(force.amplitude);
+  for (const auto& contact : problem.contacts) {
+    bits += bits_of(contact.gap) + bits_of(contact.direction[0]);
+    restitution = std::max(restitution, bits_of(contact.restitution));
+  }
+  return 8.0 * (bits + restitution * double(flights + 1));
+}
+
+bool FlightsEnclosure::ends_held(std::size_t flight) const {
+  for (long long k = motion_.impact_count(motion_.end()); k >= 1; --k)
+    if (motion_.flight_before(k) == flight)
+      return std::ranges::any_of(motion_.closed_contacts(), [&](const auto& closed) {
+        return closed.begins.lo <= motion_.impact(k).t;
+      });
+  return true;
+}
+
 const BallFlights* FlightsEnclosure::begun(std::size_t flight) {
   constexpr long most_bits = 1 << 15;
-  const auto refuse = [&](const char* why) {
-    throw InputError(
-        fmt::format(
-            "digits: {}; allowed: values other than 0, and motions up to where "
-            "contacts stay closed, and of one mass from its rest to the end on, of impacts whose order is certain.",
-            why),
-        "no-enclosure");
+  const auto refuse = [](const char* why, const char* allowed) {
+    throw InputError(fmt::format("digits: {}; allowed: {}.", why, allowed), "no-enclosure");
   };
-  if (WorkingBits::now() > most_bits) refuse("a value is 0, or an impact has no speed");
+  if (WorkingBits::now() > most_bits && is_stuck_)
+    refuse("an impact has no speed that its instant lets be seen", "motions up to there");
+  if (WorkingBits::now() > most_bits)
+    refuse("a value is 0 or halfway between two decimal numbers",
+           "other values, or another number of digits");
   if (bits_ < WorkingBits::now()) begun_.clear();
   bits_ = std::max(bits_, WorkingBits::now());
   const WorkingBits scope(bits_);
   if (begun_.empty()) begun_.emplace_back(motion_.problem());
+  is_stuck_ = false;
   while (begun_.size() <= flight) {
     const auto event = motion_.event(begun_.size() - 1);
-    if (!event) refuse("a contact is held, or contacts close together by chance");
+    if (!event && ends_held(begun_.size() - 1))
+      refuse("a contact is held", "times before, and of one mass those from its rest to the end");
+    if (!event)
+      refuse("contacts close together by chance", "motions of impacts whose order is certain");
     auto next = begun_.back();
-    if (!next.pass(*event)) return nullptr;
+    is_stuck_ = !next.pass(*event);
+    if (is_stuck_) return nullptr;
     begun_.push_back(std::move(next));
   }
   return &begun_[flight];

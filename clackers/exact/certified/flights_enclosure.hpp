@@ -20,8 +20,9 @@ class FlightsEnclosure : public Enclosure {
   /// the flight has no enclosure, or would take more than 512 bits.
   std::optional<std::pair<Eigen::VectorXd, Eigen::VectorXd>> doubles(std::size_t flight, double t);
 
-  double fraction_bits(long long) const override { return 16384.0 + 4400.0 * motion_.dof(); }
-  bool is_undamped() const override { return false; }
+  double fraction_bits(long long flights) const override;
+  /// A mass that constant forces alone act on: squares of its speeds at contacts are fractions.
+  bool is_undamped() const override;
 
  protected:
   const Ball& omega() override { return none_; }
@@ -34,12 +35,15 @@ class FlightsEnclosure : public Enclosure {
 
  private:
   const model::Contact<>* holding(double t) const;
+  /// Whether contacts are held when this flight, which no event ends, is over.
+  bool ends_held(std::size_t flight) const;
   /// Null where it takes more bits.
   const BallFlights* begun(std::size_t flight);
 
   const exact::PiecewiseMotion& motion_;
   const Ball none_;  // there is no Omega
   long bits_ = 0;
+  bool is_stuck_ = false;  // with these bits an impact is not certain
   std::vector<BallFlights> begun_;
 };
 

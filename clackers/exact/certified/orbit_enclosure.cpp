@@ -13,6 +13,9 @@ namespace {
 exact::CradleFormulas<Ball> in_balls(std::monostate) { return {}; }  // refused before
 auto in_balls(const exact::CradleParameters& p) { return exact::CradleFormulas<Ball>(p); }
 auto in_balls(const exact::CircleBilliardParameters& p) { return exact::CircleFormulas<Ball>(p); }
+auto in_balls(const exact::BallParameters& p) {
+  return exact::BallFormulas<Ball>(p, exact::last_impact(p));
+}
 auto in_balls(const exact::ObliqueDiskParameters& p) {
   const auto counts = exact::disk_counts(p);
   if (!counts.proven)

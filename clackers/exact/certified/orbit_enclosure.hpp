@@ -15,7 +15,7 @@ class OrbitEnclosure : public Enclosure {
  public:
   explicit OrbitEnclosure(const exact::Flights& motion) : Enclosure({}), motion_(motion) {}
 
-  /// At impacts of the forced pair velocities, energies and the impulse are fractions; those of the circle and the disk
+  /// At impacts of the forced pair velocities, energies and the impulse are fractions; those of the circle, the ball and the disk
   /// have one square root, and denominators that grow from flight to flight.
   double fraction_bits(long long flights) const override {
     return 16384.0 + 4400.0 * double(flights);
@@ -33,7 +33,8 @@ class OrbitEnclosure : public Enclosure {
   void require_resolved(double t) const;
   KinematicBalls kinematics(const exact::StatesOf<Ball>& states) const;
   using Formulas = std::variant<exact::CradleFormulas<Ball>, exact::OrbitFormulas<Ball>,
-                                exact::CircleFormulas<Ball>, exact::DiskFormulas<Ball>>;
+                                exact::CircleFormulas<Ball>, exact::BallFormulas<Ball>,
+                                exact::DiskFormulas<Ball>>;
   const Formulas& formulas();
 
   const exact::Flights& motion_;

@@ -114,7 +114,8 @@ std::vector<double> PiecewiseMotion::Builder::levels(double s) const {
 
 std::optional<double> PiecewiseMotion::Builder::opening(std::size_t i, double level) const {
   const double from = unresolved(i);
-  if (passed_[i] || (is_held(i) && watched(i).vanishes())) return m_.end_ + 1.0;
+  if (passed_[i] || begins_[i] == Begin::idle || (is_held(i) && watched(i).vanishes()))
+    return m_.end_ + 1.0;
   auto gap = watch(i, from);
   const auto begin = begins_[i];
   if (begin == Begin::open) {

@@ -79,7 +79,9 @@ void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
   const auto now = flight().regime, base = with_held(now, held(now), false);
   const auto& rows = rows_[base];
   const State before{now, t, m_.total(flight(), t), m_.errors_after(flight(), s)};
-  const VectorXd a_before = modes().acceleration(before.z, t);
+  const VectorXd a_before = modes().acceleration(before.z, t),
+                 arriving = modes().velocity(before.z);
+  fastest_ = std::max(fastest_, arriving.cwiseAbs().maxCoeff());
   State state = seen_in(base, before);
   auto closed = held(now);
   VectorXd q = VectorXd::Zero(Index(springs())), shared = VectorXd::Zero(state.z.size());
@@ -114,7 +116,7 @@ void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
     after.time_error = std::max(after.time_error, closing.time_error);
   }
   const auto& free = m_.regimes_[base];
-  if (at_rest(free.displacement(after.z), free.velocity(after.z), modes().velocity(before.z))) {
+  if (at_rest(free.displacement(after.z), free.velocity(after.z), arriving)) {
     begin(std::move(after));
     m_.flights_.back().free.setZero();
     is_over_ = true;

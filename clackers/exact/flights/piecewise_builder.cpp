@@ -150,6 +150,7 @@ void PiecewiseMotion::Builder::start() {
                          std::sqrt(stiffnesses_[i - springs()] * contact.direction.dot(response)));
   }
   const auto n = m_.dof();
+  fastest_ = problem_.start.v.cwiseAbs().maxCoeff();
   State state{regime(closed), problem_.start.t, {}, {}};
   const auto& modes = m_.regimes_[state.regime];
   state.errors = FlightErrors(modes, m_.end_);
@@ -198,7 +199,7 @@ void PiecewiseMotion::Builder::begin(State state) {
   m_.flights_.push_back({t, regime, z - m_.regimes_[regime].steady(t), std::move(errors)});
   begins_ = std::exchange(opens_, std::vector<Begin>(springs(), Begin::open));
   for (std::size_t i = 0; i < springs(); ++i)
-    if (is_held(i)) begins_[i] = Begin::open;
+    if (is_held(i) && begins_[i] != Begin::idle) begins_[i] = Begin::open;
   const auto states = ForcedModes::states(flight().free);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const bool is_behind = is_spring(i) ? closed_[flight().regime][i] : passed_[i];

@@ -52,8 +52,9 @@ class PiecewiseMotion::Builder {
     double first() const { return s - time_error; }
     double last() const { return s + time_error; }
   };
-  /// How the gap of a contact begins in a flight: the derivatives below this order are 0.
-  enum class Begin { open, by_speed, by_acceleration, by_jerk };
+  /// How the gap of a contact begins in a flight: the derivatives below this order are 0. An idle one is held, and its
+  /// force is 0 up to the end of the flight.
+  enum class Begin { open, by_speed, by_acceleration, by_jerk, idle };
   /// z in a regime, the error of it, and that of the instant where an impact sets it.
   struct State {
     std::size_t regime = 0;
@@ -170,11 +171,15 @@ class PiecewiseMotion::Builder {
   /// negative open. By accelerations, and where those leave it undecided, by their rates.
   std::size_t resting(const State& state, const std::vector<std::size_t>& contacts);
   std::size_t resting_by_jerk(const State& state, const std::vector<std::size_t>& contacts);
+  /// The regime in which these contacts, of which no derivative is certain, are held without a force; refused where
+  /// that is not proven.
+  std::size_t resting_idle(const State& state, const std::vector<std::size_t>& contacts);
   /// The same instant in another regime.
   State seen_in(std::size_t regime, const State& state) const;
   /// Held contacts whose force ends.
   void release(const std::vector<Closing>& closings);
-  /// Contact i rebounds with impacts that accumulate: rest follows where that is certain.
+  /// Contact i rebounds with impacts that accumulate: rest follows where that is certain. Throws InputError
+  /// where the impacts that are left out are not small.
   bool come_to_rest(std::size_t i, double level, bool is_resolved);
   /// Contact i lands without a speed that can be seen.
   void land(const Closing& closing);
@@ -207,6 +212,7 @@ class PiecewiseMotion::Builder {
   std::shared_ptr<certified::FlightsEnclosure> balls_;
   double bytes_ = 0.0;    // of the errors of all flights
   bool is_over_ = false;  // nothing collides any more
+  double fastest_ = 0.0;  // speed of a mass so far, at the start and before impacts
   std::string no_rest_;   // why impacts that accumulate were not seen to end in rest
 };
 

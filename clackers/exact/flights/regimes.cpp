@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "clackers/base/constants.hpp"
+#include "clackers/exact/flights/idle_contacts.hpp"
 #include "clackers/exact/flights/piecewise_builder.hpp"
 #include "clackers/model/harmonic_load.hpp"
 #include "clackers/numerics/double_double.hpp"
@@ -12,6 +13,22 @@ namespace clackers::exact {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+namespace {
+
+// Of a force that is 0 in every motion rounding alone is left.
+bool is_nearly_zero(const ForcedModes::Observable& seen) {
+  constexpr double small = 1e-9;
+  double response = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < seen.response.size(); ++i) {
+    response += std::abs(seen.response[i]);
+    size += seen.direct_size[i];
+  }
+  return (seen.by_state.col(0).array().abs() <= small * seen.size.array()).all() &&
+         std::abs(seen.constant) <= small * seen.constant_size && response <= small * size;
+}
+
+}  // namespace
 
 std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
   const auto known = std::ranges::find(closed_, closed);
@@ -60,6 +77,9 @@ std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
     const VectorXd need = constrained.forces.row(Index(k)).transpose();
     of_contacts[held[k]] = modes.observe(modes.stiffness() * need, modes.damping() * need,
                                          modes.mass() * need, -need, 0.0);
+    auto& force = *of_contacts[held[k]];
+    if (is_nearly_zero(force) && !closed.back() && is_never_pressed(problem_, closed, held[k]))
+      force = modes.observe(none, none, none, none, 0.0);
   }
   closed_.push_back(closed);
   return closed_.size() - 1;

@@ -7,6 +7,7 @@
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/flights/first_crossing.hpp"
+#include "clackers/exact/flights/idle_contacts.hpp"
 #include "clackers/exact/flights/piecewise_builder.hpp"
 
 namespace clackers::exact {
@@ -68,7 +69,7 @@ std::size_t PiecewiseMotion::Builder::resting_by_jerk(const State& state,
   for (const auto i : contacts)
     q[Index(i)] = modes.now(rows_[state.regime][i].seen, free, state.t).third;
   const auto rates = solve(state.regime, q, contacts, state.t);
-  std::vector<std::size_t> pressed;
+  std::vector<std::size_t> pressed, unclear;
   for (const auto i : contacts) {
     double opening = q[Index(i)];
     for (const auto j : contacts) opening += delassus(state.regime, i, j) * rates[Index(j)];
@@ -79,6 +80,19 @@ std::size_t PiecewiseMotion::Builder::resting_by_jerk(const State& state,
     else if (opening > error)
       opens_[i] = Begin::by_jerk;
     else
+      unclear.push_back(i);
+  }
+  const auto sure = with_held(state.regime, pressed, true);
+  return unclear.empty() ? sure : resting_idle(seen_in(sure, state), unclear);
+}
+
+std::size_t PiecewiseMotion::Builder::resting_idle(const State& state,
+                                                   const std::vector<std::size_t>& contacts) {
+  const auto all = with_held(state.regime, contacts, true);
+  const bool is_start = m_.hits_.empty() && state.t == problem_.start.t;
+  for (const auto i : contacts) {
+    if (!m_.forces_[all][i]->vanishes() &&
+        !(is_start && is_idle_from_start(problem_, closed_[all], i)))
       throw InputError(
           fmt::format("{}: contact {} is closed at t = {:.9g} s without a speed, a force or a rate "
                       "of it that the error lets be seen; allowed: motions in which it is certain "
@@ -86,8 +100,9 @@ std::size_t PiecewiseMotion::Builder::resting_by_jerk(const State& state,
                       "earlier.",
                       m_.who_, i + 1, state.t),
           "not-admissible");
+    opens_[i] = Begin::idle;
   }
-  return with_held(state.regime, pressed, true);
+  return all;
 }
 
 // A later or earlier release by time_error changes the gap rate by a term of second order.
@@ -149,6 +164,15 @@ bool PiecewiseMotion::Builder::come_to_rest(std::size_t i, double level, bool is
   const double height = 0.5 * speed * speed / least * (1.0 + beta);
   auto skipped = left_out({i, seconds, height, speed * (1.0 + 4.8 * beta), most}, now, held);
   if (!skipped) return false;
+  constexpr double most_skipped = 1e-3;
+  if (m_.has_bounds_ && speed > most_skipped * fastest_)
+    throw InputError(
+        fmt::format(
+            "{}: impacts of contact {} accumulate, and from t = {:.9g} s on their height of {:.3g} m is too "
+            "close to its error of {:.3g} m for them to be followed; allowed: impacts that are followed down to "
+            "{:g} of the largest speed. End the run earlier.",
+            m_.who_, i + 1, t, height, level, most_skipped),
+        "not-admissible");
 
   // The sum of the flights to second order in the speed; docs/manual/explanation/derivations.
   const VectorXd response = this->modes().velocity(row(i).impulse) / w;
@@ -221,8 +245,8 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
         certain_gap * (deviation(held, seen.by_state.col(0)) + after.rounding(seen, size, held.t));
     if (!is_held) error += gap * std::abs(contacts_[j].direction.dot(response));
     if (!(sign * ahead.value - lost > error)) return std::nullopt;
-    // Between its impacts the contact leaves a held one the force of the flights.
-    if (is_held &&
+    // Between its impacts the contact leaves a held one the force of the flights, unless that needs none.
+    if (is_held && !m_.forces_[free.regime][j]->vanishes() &&
         !(before.now(*m_.forces_[free.regime][j], z_free, held.t).value - 2.0 * lost > error))
       return std::nullopt;
   }

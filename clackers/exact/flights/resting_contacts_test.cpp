@@ -8,6 +8,7 @@
 #include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/exact/testing/taylor_simulator.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
+#include "clackers/model/harmonic_load.hpp"
 
 // Contacts that stay closed: closed forms and a simulation of 90 digits, within the bound.
 namespace clackers::exact {
@@ -448,6 +449,19 @@ TEST(RestingContacts, OfRandomStructuresMoveAsTheTaylorSeriesSays) {
   for (const auto& [reason, count] : refused) testing::Test::RecordProperty(reason, count);
   EXPECT_GT(tally.rests, tally.members / 4);
   tally.record();
+}
+
+// 12000 impacts later the error of a ball is its height.
+TEST(RestingContacts, ImpactsThatAreNotSmallAreNotLeftOut) {
+  model::ImpactProblem<> ball;
+  ball.system.mass = MatrixXd::Identity(1, 1);
+  ball.system.damping = ball.system.stiffness = MatrixXd::Zero(1, 1);
+  ball.system.add_load = model::HarmonicLoad({{0, -9.81, 0.0, 0.0}});
+  ball.contacts = {{VectorXd::Ones(1), 0.0, 0.9999}};
+  ball.start = {0.0, VectorXd::Ones(1), VectorXd::Zero(1)};
+  ball.end = 6000.0;
+  EXPECT_REFUSED(PiecewiseMotion{ball}, "not-admissible", "contact 1 accumulate", "height of 0.1",
+                 "0.001 of the largest speed");
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "clackers/exact/orbit/formulas.hpp"
+#include "clackers/exact/orbit/ball_formulas.hpp"
 
 namespace clackers::exact {
 
@@ -16,45 +16,35 @@ struct DiskCounts {
 /// Flight k begins with impact k up to `last`; then come slip on the floor, if only for an instant, and rolling. Closed
 /// sums of geometric series: docs/manual/explanation/derivations/friction.md.
 template <class Real>
-struct DiskFormulas {
+struct DiskFormulas : BallFormulas<Real> {
+  using BallFormulas<Real>::ball, BallFormulas<Real>::V, BallFormulas<Real>::once;
+  using BallFormulas<Real>::power, BallFormulas<Real>::rest;
   ObliqueDiskParameters p;
   DiskCounts counts;
-  Real V, first, once;  // once = 1 - eta
   Real slip, more;      // at the start; what an impulse takes of it: 1 + 1/beta times
   Real friction, loss;  // lost at the first impact while it slides, and in all when it rolls
   Real left;            // of the slip's size if friction acts at all impacts
 
   DiskFormulas() = default;
   DiskFormulas(const ObliqueDiskParameters& p_, const DiskCounts& counts_)
-      : p(p_), counts(counts_), once(Real(1.0) - Real(p.eta)) {
-    const Real v0 = p.v0, g = p.g, sign = is_backward() ? -1.0 : 1.0;
-    V = sqrt(v0 * v0 + Real(2.0) * g * Real(p.h0));
-    first = (v0 + V) / g;
+      : BallFormulas<Real>(p_.height, counts_.last), p(p_), counts(counts_) {
+    const Real sign = is_backward() ? -1.0 : 1.0;
     slip = Real(p.vx0) + Real(p.w0);
     more = Real(1.0) + Real(1.0) / Real(p.beta);
-    friction = sign * Real(p.mu) * (Real(1.0) + Real(p.eta)) * V;
+    friction = sign * Real(p.mu) * (Real(1.0) + Real(ball.eta)) * V;
     loss = slip / more;
     left = sign * (slip - more * friction / once);
   }
 
+  long long last_flight() const { return counts.last + 2; }
   bool is_backward() const { return p.vx0 < -p.w0; }
   /// Seconds of slip on the floor.
   Real slip_end() const {
-    return counts.slides > counts.last ? left / (Real(p.mu) * Real(p.g) * more) : Real(0.0);
+    return counts.slides > counts.last ? left / (Real(p.mu) * Real(ball.g) * more) : Real(0.0);
   }
-  /// Of eta; 0 after the last.
-  Real power(long long k) const {
-    if (k > counts.last) return 0.0;
-    Real result = 1.0, square = p.eta;
-    for (; k > 0; k /= 2, square = square * square)
-      if (k % 2 == 1) result = result * square;
-    return result;
-  }
-  Real rest() const { return first + Real(2.0) * V / Real(p.g) * Real(p.eta) / once; }
   Real instant(long long k) const {
-    if (k == 0) return 0.0;
-    if (k > counts.last) return k > counts.last + 1 ? rest() + slip_end() : rest();
-    return first + Real(2.0) * V / Real(p.g) * (Real(p.eta) - power(k)) / once;
+    const Real on_ground = BallFormulas<Real>::instant(k);
+    return k > counts.last + 1 ? on_ground + slip_end() : on_ground;
   }
   /// Of the velocity along the floor at the beginning of flight k.
   Real lost(long long k) const {
@@ -62,35 +52,24 @@ struct DiskFormulas {
     return k <= counts.slides ? friction * (Real(1.0) - power(k)) / once : loss;
   }
   StatesOf<Real> state(long long k, const Real& s) const {
-    const Real g = k <= counts.last ? p.g : 0.0;
-    const MassStateOf<Real> height =
-        k == 0 ? MassStateOf<Real>{p.h0, p.v0, -g} : MassStateOf<Real>{0.0, power(k) * V, -g};
-    StatesOf<Real> now{{along(k, 1.0, p.vx0), height, along(k, Real(1.0) / Real(p.beta), p.w0)}};
-    for (auto& [u, v, a] : now) {
-      u = u + s * (v + Real(0.5) * a * s);
-      v = v + a * s;
-    }
-    return now;
+    const auto moved = [&](MassStateOf<Real> x) {
+      return MassStateOf<Real>{x.u + s * (x.v + Real(0.5) * x.a * s), x.v + x.a * s, x.a};
+    };
+    return {{moved(along(k, 1.0, p.vx0)), this->height(k, s),
+             moved(along(k, Real(1.0) / Real(p.beta), p.w0))}};
   }
   LimitsOf<Real> limits(long long k) const {
-    LimitsOf<Real> limit;
-    for (const bool after : {false, true}) {
-      const long long flight = after ? k : k - 1;
-      const Real speed = power(flight) * V;
-      const auto now = state(flight, 0.0), there = state(k, 0.0);
-      auto& states = after ? limit.after : limit.before;
-      states = now;
-      for (const std::size_t i : {0U, 2U}) states[i].u = there[i].u;
-      states[1] = {0.0, after ? speed : -speed, now[1].a};
-    }
-    limit.impulse = (Real(1.0) + Real(p.eta)) * power(k - 1) * V;
+    const auto height = BallFormulas<Real>::limits(k);
+    LimitsOf<Real> limit{state(k - 1, 0.0), state(this->following(k), 0.0), height.impulse};
+    for (const std::size_t i : {0U, 2U}) limit.before[i].u = limit.after[i].u;
+    limit.before[1] = height.before[0];
+    limit.after[1] = height.after[0];
     return limit;
   }
   /// Of an impact, where the height is 0.
   Real energy(const StatesOf<Real>& x) const {
     return (x[0].v * x[0].v + x[1].v * x[1].v + Real(p.beta) * x[2].v * x[2].v) * 0.5;
   }
-  bool turns(std::size_t, long long, double) const { return false; }
 
  private:
   // What the loss amounts to [m].
@@ -99,16 +78,16 @@ struct DiskFormulas {
     if (k > counts.last + 1)
       return behind(counts.last + 1) +
              (lost(counts.last + 1) + loss) * Real(0.5) * slip_end();  // evenly decelerated
-    const Real eta = p.eta, until = power(k),
+    const Real eta = ball.eta, until = power(k),
                sliding = k <= counts.slides ? until : eta * power(counts.slides);
     const Real some = (eta - sliding) / once,
                twice = (eta * eta - sliding * sliding) / (Real(1.0) - eta * eta);
-    return Real(2.0) * V / Real(p.g) * (friction * (some - twice) + loss * (sliding - until)) /
-           once;
+    return this->unit * (friction * (some - twice) + loss * (sliding - until));
   }
   MassStateOf<Real> along(long long k, const Real& share, double velocity) const {
-    const Real force =
-        k == counts.last + 1 ? share * Real(is_backward() ? p.mu : -p.mu) * Real(p.g) : Real(0.0);
+    const Real force = k == counts.last + 1
+                           ? share * Real(is_backward() ? p.mu : -p.mu) * Real(ball.g)
+                           : Real(0.0);
     return {Real(velocity) * instant(k) - share * behind(k), Real(velocity) - share * lost(k),
             force};
   }

@@ -26,7 +26,7 @@ long long Flights::flight_at(double t, Side side) const {
 
 Flights::States Flights::at_time(double t, Side side) const {
   const auto k = flight_at(t, side);
-  return state(k, Bounded(t) - instant(k));
+  return state(k, since(k, t));
 }
 
 void Flights::sample(std::span<const double> times, Side side, model::SampleBuffers out) const {

@@ -47,6 +47,8 @@ class Flights : public model::Motion {
   /// The flight that holds at t, give or take one.
   virtual long long near_flight(double t) const = 0;
   virtual Limits limits(long long k) const = 0;
+  /// From the beginning of flight k to t [s].
+  virtual Bounded since(long long k, double t) const { return Bounded(t) - instant(k); }
 
   States at_time(double t, model::Side side) const;
 

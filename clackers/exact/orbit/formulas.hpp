@@ -44,18 +44,23 @@ struct CircleBilliardParameters {
   double end = 20.0;                              ///< [s]
 };
 
+/// A ball of unit mass above a floor.
+struct BallParameters {
+  double h0 = 1.0, v0 = 0.0;   ///< height above the floor and velocity upwards at t = 0 [m, m/s]
+  double g = 9.81, eta = 0.8;  ///< gravity [m/s^2], restitution
+  double end = 5.0;            ///< [s]
+};
+
 /// A disk or ball of unit mass that is thrown on a rough floor, turning.
 struct ObliqueDiskParameters {
-  double h0 = 1.0, v0 = 0.0;    ///< height above the floor and velocity upwards at t = 0 [m, m/s]
+  BallParameters height;        ///< its height is that of a ball
   double vx0 = 1.0, w0 = 0.0;   ///< velocity along the floor, and R times that of rotation [m/s]
-  double g = 9.81, eta = 0.8;   ///< gravity [m/s^2], restitution
   double mu = 0.1, beta = 0.5;  ///< coefficient of friction; moment of inertia over m R^2
-  double end = 5.0;             ///< [s]
 };
 
 using FlightsParameters =
     std::variant<std::monostate, CradleParameters, ForcedPairParameters, BaseExcitedParameters,
-                 CircleBilliardParameters, ObliqueDiskParameters>;
+                 CircleBilliardParameters, BallParameters, ObliqueDiskParameters>;
 
 /// Numbers of a type Real that bounds their errors.
 template <class Real>

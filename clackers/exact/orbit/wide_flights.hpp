@@ -16,6 +16,9 @@ class WideFlights : public Flights {
       : Flights(parameters), formulas_(std::move(formulas)) {}
 
   Bounded instant(long long k) const override { return numerics::narrowed(formulas_.instant(k)); }
+  Bounded since(long long k, double t) const override {
+    return numerics::narrowed(Wide(t) - formulas_.instant(k));
+  }
   States state(long long k, const Bounded& s) const override {
     return narrow(
         formulas_.state(k, Wide(numerics::WideReal(s.value), numerics::WideReal(s.error))));

@@ -245,7 +245,7 @@ TEST(Sensitivity, DiesOutWithTheMotionOnceItIsTooSmallToTell) {
     EXPECT_EQ(class_sensitivity(motion, name)->at(1e6, Side::left).v.norm(), 0.0) << name;
 }
 
-std::string refusal(const std::function<void()>& call) {
+std::string refusal_of(const std::function<void()>& call) {
   try {
     call();
   } catch (const InputError& error) {
@@ -304,7 +304,7 @@ TEST(Sensitivity, WithoutRestitutionIsThereUntilTheFirstImpact) {
 TEST(Sensitivity, IsRefusedWithoutRestitutionAndForUnknownNames) {
   const SynchronizedPair plastic({.eta = 0.0}), pair({});
   for (const auto& name : twelve) {
-    const auto text = refusal([&] { raw_sensitivity(plastic, name); });
+    const auto text = refusal_of([&] { raw_sensitivity(plastic, name); });
     EXPECT_EQ(text.find("sensitivity to " + name + ": eta = 0; allowed: 0 < eta <= 1."), 0u)
         << text;
     EXPECT_NE(text.find("[no-derivative]"), std::string::npos);
