@@ -132,7 +132,8 @@ int end_all(pid_t program) {
   // Signals to our group do not end it before the program.
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  // When the thread that started us ends: others of its process may end a moment later.
+  ::prctl(PR_SET_PDEATHSIG, SIGHUP);
   ::signal(SIGCHLD, SIG_DFL);
   const pid_t program = ::_Fork();
   if (program == 0) become_program(start);
@@ -148,9 +149,14 @@ int end_all(pid_t program) {
   ::sigemptyset(&awaited);
   ::sigaddset(&awaited, SIGCHLD);
   ::sigaddset(&awaited, SIGTERM);
-  while (::getppid() == start.parent && !is_over(program))
-    if (::sigwaitinfo(&awaited, nullptr) == SIGTERM) break;
+  ::sigaddset(&awaited, SIGHUP);
+  int signal = 0;
+  while (signal != SIGTERM && signal != SIGHUP && ::getppid() == start.parent && !is_over(program))
+    signal = ::sigwaitinfo(&awaited, nullptr);
   say(messages, Message::Kind::ended, end_all(program));
+  for (const auto limit = Clock::now() + patience;
+       signal == SIGHUP && ::getppid() == start.parent && Clock::now() < limit;)
+    pause_briefly();
   if (start.removes_folder && ::getppid() != start.parent) remove_path(start.folder);
   ::_exit(0);
 }
