@@ -13,6 +13,7 @@
 #include "clackers/base/jobs/work_queue.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/numerics/line_fit.hpp"
+#include "clackers/study/method_candidate.hpp"
 #include "clackers/study/path/mesh_run.hpp"
 #include "clackers/study/run_sinks.hpp"
 
@@ -91,7 +92,8 @@ std::vector<record::Column> error_columns() {
   return {{"e_total", "", "largest error of u against the bar, over the largest u"},
           {"e_time", "",
            "of it the integrator's: against the exact motion of the mesh, where that is known"},
-          {"e_space", "", "of it the mesh's: known before anything runs"},
+          {"e_space", "",
+           "of it the mesh's, over the largest u (show: in m): known before anything runs"},
           {"v_l1", "", "error of v over x and t, in L1"},
           {"v_l2", "", "error of v over x and t, in L2"},
           {"energy", "", "gained up to the end, over the largest kinetic one of the bar"}};
@@ -149,7 +151,8 @@ std::optional<MeshRuns> run_mesh(const PathRequest& request, const Methods& list
   MeshRuns runs{nu, elements, known.h, known.step, known.e_space, {}};
   for (const auto& method : list) {
     if (const auto objection = method->objection(problem)) {
-      runs.errors.emplace_back().failure = objection->code.name();
+      runs.errors.emplace_back().failure =
+          fmt::format("{} [{}]", objection_text(*method, *objection), objection->code.name());
       continue;
     }
     MeshSink sink(known);
@@ -169,7 +172,7 @@ record::Sheet crossings_of(const std::vector<double>& paths, const std::string& 
                       name + ": error in time of each step beside that of the mesh",
                       {{"elements", "", "of the mesh"},
                        {"h", "m", "length of an element"},
-                       {"e_space", "", "error of the mesh"}},
+                       {"e_space", "", "error of the mesh, over the largest u"}},
                       {}};
   for (const double nu : paths)
     sheet.columns.push_back({fmt::format("{:g} h/c", nu), "", "e_time with this step"});

@@ -167,7 +167,9 @@ TEST(Path, RefusesWithTheReason) {
   EXPECT_REFUSED(follow_path(few), "out-of-range", "three meshes");
   EXPECT_REFUSED(follow_path(request({"dop853"})), "not-admissible", "chooses its steps");
   const auto study = follow_path(request({"newmark+penalty"}, {{"mass", "lumped"}}));
-  EXPECT_EQ(reading(study, 0), "failed: penalty-needs-elastic");
+  EXPECT_EQ(reading(study, 0),
+            "failed: with eta = 0: the law linear is elastic, so it models only eta = 1. Use "
+            "penalty:law=kelvin-voigt or event-driven. [penalty-needs-elastic]");
   // Errors too large to be squared spoil no other row.
   auto unstable = request({"newmark", "central-difference"});
   unstable.nu = {0.45, 1.8};

@@ -39,7 +39,7 @@ MeshReference mesh_reference(cases::Case mesh, double elements, double nu);
 /// Errors of a run on a mesh, as columns say them.
 struct MeshErrors {
   double e_total = 0.0, e_time = 0.0, v_l1 = 0.0, v_l2 = 0.0, energy = 0.0;
-  std::string failure;  ///< a code; empty where there are errors
+  std::string failure;  ///< a code, or why the method refuses; empty where there are errors
 };
 
 /// Compares the states at the times of the reference as they come.
