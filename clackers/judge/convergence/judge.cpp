@@ -117,7 +117,7 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
                        const JudgeContext& facts) {
   const bool open = !shows_a_line(fit) && fit.behaviour != Behaviour::exact &&
                     fit.reason != Code("contact-not-resolved").name();
-  const bool of_another_model = facts.contact_time > 0.0 && has_far_limit(fit);
+  const bool of_another_model = facts.contact_time > 0.0 && !claim.is_made() && has_far_limit(fit);
   // Less than all of the initial energy too much: a motion that should have decayed, and has not grown.
   const auto too_much = [](const measure::RunScore& run) {
     return run.energy_ratio > largest_energy_ratio && !(run.energy_error < 1.0);

@@ -91,8 +91,9 @@ struct JudgeContext {
 ///                                   at an unexplained or a rough floor that comes from them, and at
 ///                                   any that is as large as the motion
 ///     stagnating [contact-stiffness]
-///                                   a compliant law whose errors are as large as the motion and the
-///                                   same on the four finest levels
+///                                   a compliant law that claims nothing, as that of dry friction, whose
+///                                   errors are as large as the motion and the same on the four finest
+///                                   levels
 ///     stagnating [reason claimed]   at such a floor above `large_error`, where a claim to diverge, or
 ///                                   none, names its reason
 ///     undecided [numerical-damping] undecided with falling errors, and most of those runs end with
