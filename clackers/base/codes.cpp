@@ -24,9 +24,10 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"undecided", "behaviour",
      "These runs are not enough for a verdict. The message says what to change."},
     {"contact-stiffness", "reason",
-     "The floor is the model error of a compliant contact: "
-     "each impact lasts a contact time instead of an instant. "
-     "A larger contact stiffness lowers it, and needs smaller steps."},
+     "The floor is the model error of a compliant law. "
+     "Of contacts, which last a contact time instead of an instant, a larger contact stiffness lowers it; "
+     "of dry friction, which creeps instead of sticking, a smaller width (penalty:width=VALUE) does. "
+     "Both need smaller steps."},
     {"tolerance-floor", "reason",
      "The floor is an iteration tolerance of the method; tighten it."},
     {"unexplained-floor", "reason",
@@ -36,8 +37,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "Fewer than four levels lie between the coarse range, where nothing converges yet, and the rounding floor. "
      "Use more --levels or another --coarsest."},
     {"contact-not-resolved", "reason",
-     "Even the smallest step is longer than 1/25 of the contact time, so the penalty contact was never integrated. "
-     "Use more levels, smaller steps or a softer contact."},
+     "Even the smallest step is longer than 1/25 of the contact time, or of that of regular friction, so the law was never integrated. "
+     "Use more levels, smaller steps, a softer contact or a larger width of regular friction."},
     {"no-convergence-yet", "reason",
      "The error has not started to shrink in a regular way. Use smaller steps; of verify: "
      "more --levels or a smaller --coarsest."},

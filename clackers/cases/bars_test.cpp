@@ -497,6 +497,13 @@ TEST(BarCases, AreRefusedWithTheReason) {
   EXPECT_REFUSED(make("bar-wall", {{"elements", 4001.0}}), "out-of-range", "4000");
   EXPECT_REFUSED(make("two-bars", {{"elements", 2001.0}}), "out-of-range", "2000");
   EXPECT_REFUSED(make("string-on-obstacle", {{"elements", 201.0}}), "out-of-range", "--path");
+  EXPECT_REFUSED(make("bouncing-bar", {{"L", 10.0},
+                                       {"E", 900.0},
+                                       {"g", 10.0},
+                                       {"elements", 64.0},
+                                       {"mass", "lumped"},
+                                       {"eta", 1.0}}),
+                 "not-admissible", "another eta", "number of elements", "end the run earlier");
   EXPECT_REFUSED(make_mesh("bar-wall", {{"elements", 4001.0}}), "out-of-range", "4000");
   const auto large = make_mesh("string-on-obstacle", {{"elements", 201.0}});
   EXPECT_EQ(large.motion, nullptr);

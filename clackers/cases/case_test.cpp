@@ -46,6 +46,8 @@ TEST(Cases, BuildAProblemAndItsReferenceThatFitTogether) {
     const auto bound = test_case.motion->error_bound(0.0);
     EXPECT_TRUE(((test_case.problem.start.u - start.u).array().abs() <= bound.u.array()).all());
     EXPECT_TRUE(((test_case.problem.start.v - start.v).array().abs() <= bound.v.array()).all());
+    for (Eigen::Index i = 0; i < start.v.size(); ++i)
+      EXPECT_TRUE(test_case.problem.start.v[i] != 0.0 || start.v[i] == 0.0) << start.v[i];
     // The equation of motion at the start, with the problem's own numbers; each of the terms carries
     // three roundings, and the reference its bound.
     const auto& s = test_case.problem.system;

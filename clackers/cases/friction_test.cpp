@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/cases/case.hpp"
@@ -389,6 +390,13 @@ TEST(FrictionCases, AreRefusedWithTheReason) {
   EXPECT_REFUSED(make("belt", {{"Fd", 1.0}}), "not-admissible", "no stick and slip");
   EXPECT_REFUSED(make("forced-slider", {{"W", 1.0}}), "not-admissible", "resonance");
   EXPECT_REFUSED(make("forced-slider", {{"F", 0.9}}), "not-admissible", "stop");
+  // sqrt(k/m)/W is 5, 5.02 and 6.98: at an odd number and near two.
+  const auto expect_resonance = [](double W, std::string_view harmonic) {
+    EXPECT_REFUSED(make("forced-slider", {{"W", W}}), "not-admissible", harmonic, "resonance");
+  };
+  expect_resonance(0.2, "n is 5");
+  expect_resonance(1.0 / 5.02, "n is 5");
+  expect_resonance(1.0 / 6.98, "n is 7");
   EXPECT_REFUSED(make("oblique-disk", {{"eta", 0.9996}}), "out-of-range", "1e5 impacts");
   EXPECT_REFUSED(make("oblique-disk", {{"h0", 0.0}}), "out-of-range", "on the floor");
 }

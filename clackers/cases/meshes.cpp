@@ -41,6 +41,20 @@ double space_error(const model::Motion& motion, const exact::BarMotion& bars,
   return worst;
 }
 
+std::shared_ptr<const exact::PiecewiseMotion> motion_of(const Case& test_case) {
+  try {
+    return std::make_shared<const exact::PiecewiseMotion>(test_case.problem, test_case.entry->name);
+  } catch (const InputError& error) {
+    if (error.code() != Code("not-admissible")) throw;
+    throw InputError(
+        fmt::format(
+            "{} Another number of elements or another eta may do; verify --path does without "
+            "the exact motion of the mesh.",
+            error.what()),
+        error.code());
+  }
+}
+
 }  // namespace
 
 void use_mesh(Case& test_case, const Values& value, const exact::MeshedBars& meshed) {
@@ -60,7 +74,7 @@ void use_mesh(Case& test_case, const Values& value, exact::BarMesh made, double 
   test_case.problem = std::move(made.problem);
   test_case.mesh = std::move(made.mesh);
   if (test_case.is_mesh_only) return;
-  const auto motion = std::make_shared<const exact::PiecewiseMotion>(test_case.problem, who);
+  const auto motion = motion_of(test_case);
   test_case.motion = motion;
   // A rigid motion has no period; the run's length is what it has.
   for (const auto& mode : motion->modes().modes())
@@ -75,7 +89,7 @@ void use_mesh(Case& test_case, const Values& value, exact::BarMesh made, double 
   list.push_back(
       {"e_space", space_error(*motion, bars, *test_case.mesh), "m",
        fmt::format("largest difference between the displacements of mesh and {}, at 51 times: what "
-                   "no integrator on this mesh can mend",
+                   "no integrator on this mesh can mend (verify --path: over the largest u)",
                    name)});
   list.push_back({"error_bound", motion->error_bound(motion->end()).u.maxCoeff(), "m",
                   "of the displacements of the mesh's reference solution at t_end"});

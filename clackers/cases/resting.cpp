@@ -273,7 +273,7 @@ Parameter moderate(const char* name, double standard, const char* unit, const ch
 std::vector<CaseRow> resting_rows() {
   return {
       {{"ball",
-        "A ball dropped on a floor: infinitely many impacts, then rest.",
+        "A ball dropped on a floor: infinitely many impacts, or one with eta = 0, then rest.",
         "none; u'' = -g, u >= 0",
         {not_negative("h0", 1.0, "m", "initial height"),
          any("v0", 0.0, "m/s", "initial velocity, upwards"),

@@ -36,6 +36,14 @@ TEST_F(Check, FillsARecordOfOneCaseAndOneSubject) {
   EXPECT_EQ(exit_code(record), 0);
 }
 
+TEST_F(Check, RefusesTheHistoryOfMoreMassesThanTheCaseHas) {
+  CheckRequest request;
+  request.case_name = "stop";
+  request.subjects[0].files = {write(0.01)};
+  EXPECT_REFUSED(check(request), "not-this-case", "displacements up to u2", "u1, the mass",
+                 "another mesh");
+}
+
 // The motion decays by 1e-22. What is slower than 1e-12 of the beginning is rest for a reader of
 // velocities; and of so many rows diagnosis keeps one in 667, between which the fast mass swings.
 TEST_F(Check, FindsNothingWrongWithALongExactHistory) {

@@ -87,7 +87,7 @@ record::Subject subject_of(const methods::Method& method, const StudyCase& probl
     if (subject.claim.order > 0.0) subject.claim.order = 1.0;
   }
   if (const auto objection = method.objection(problem.problem.problem)) {
-    subject.refusal = objection->sentence;
+    subject.refusal = objection_text(method, *objection);
     subject.refusal_code = objection->code.name();
   } else if (collides || !problem.problem.problem.frictions.empty()) {
     subject.contact_time = method.contact_time(problem.problem.problem);
@@ -96,6 +96,14 @@ record::Subject subject_of(const methods::Method& method, const StudyCase& probl
 }
 
 }  // namespace
+
+std::string objection_text(const methods::Method& method, const methods::Objection& objection) {
+  std::string_view text = objection.sentence;
+  const auto name = method.facts().name;
+  if (!text.starts_with(name)) return objection.sentence;
+  text.remove_prefix(name.size());
+  return std::string(text.substr(std::min(text.find_first_not_of(": "), text.size())));
+}
 
 MethodCandidate::MethodCandidate(std::shared_ptr<const methods::Method> method,
                                  const StudyCase& problem, const std::vector<double>& tolerances,

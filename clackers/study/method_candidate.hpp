@@ -15,6 +15,9 @@ struct Extras {
   bool times = true;   ///< each run made again for its processor time
 };
 
+/// The sentence of an objection without the name of the method, beside which it stands.
+std::string objection_text(const methods::Method& method, const methods::Objection& objection);
+
 /// Bins of the error against time of the run that is shown.
 inline constexpr int history_bins = 400;
 

@@ -13,6 +13,7 @@
 #include "clackers/base/jobs/work_queue.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/numerics/line_fit.hpp"
+#include "clackers/study/method_candidate.hpp"
 #include "clackers/study/path/mesh_run.hpp"
 #include "clackers/study/run_sinks.hpp"
 
@@ -91,7 +92,8 @@ std::vector<record::Column> error_columns() {
   return {{"e_total", "", "largest error of u against the bar, over the largest u"},
           {"e_time", "",
            "of it the integrator's: against the exact motion of the mesh, where that is known"},
-          {"e_space", "", "of it the mesh's: known before anything runs"},
+          {"e_space", "",
+           "of it the mesh's, over the largest u (show: in m): known before anything runs"},
           {"v_l1", "", "error of v over x and t, in L1"},
           {"v_l2", "", "error of v over x and t, in L2"},
           {"energy", "", "gained up to the end, over the largest kinetic one of the bar"}};
@@ -108,17 +110,42 @@ namespace {
 
 using Methods = std::vector<std::shared_ptr<const methods::Method>>;
 
+void require_step_in_proportion(const std::string& name, bool is_adaptive) {
+  if (is_adaptive)
+    throw InputError(fmt::format("verify --path: {} chooses its steps; allowed: methods with a "
+                                 "step in proportion to the elements. Leave it or --path out.",
+                                 name),
+                     "not-admissible");
+}
+
 Methods methods_of(const PathRequest& request) {
   Methods list;
-  for (const auto& name : request.methods.empty() ? methods::default_panel() : request.methods) {
+  const bool is_default = request.methods.empty() && request.solvers.empty();
+  for (const auto& name : is_default ? methods::default_panel() : request.methods) {
     list.push_back(methods::method(name));
-    if (list.back()->facts().is_adaptive)
-      throw InputError(fmt::format("verify --path: {} chooses its steps; allowed: methods with a "
-                                   "step in proportion to the elements. Leave it or --path out.",
-                                   name),
-                       "not-admissible");
+    require_step_in_proportion(name, list.back()->facts().is_adaptive);
   }
+  for (const auto& solver : request.solvers)
+    require_step_in_proportion(solver.name, !solver.tolerances.empty());
   return list;
+}
+
+// What the rows of the sheets are of, methods before solvers.
+struct Judged {
+  std::string name;
+  double smooth_order = 0.0;
+};
+
+std::vector<Judged> all_of(const PathRequest& request, const Methods& list) {
+  constexpr double usual = 2.0;  // of a solver that claims none
+  std::vector<Judged> all;
+  for (const auto& method : list) {
+    const auto facts = method->facts();
+    all.push_back({methods::short_name(facts.name), facts.smooth_order});
+  }
+  for (const auto& solver : request.solvers)
+    all.push_back({solver.name, solver.claim.order > 0.0 ? solver.claim.order : usual});
+  return all;
 }
 
 // A mesh that was run with the step of one path, with the errors of all methods.
@@ -149,7 +176,8 @@ std::optional<MeshRuns> run_mesh(const PathRequest& request, const Methods& list
   MeshRuns runs{nu, elements, known.h, known.step, known.e_space, {}};
   for (const auto& method : list) {
     if (const auto objection = method->objection(problem)) {
-      runs.errors.emplace_back().failure = objection->code.name();
+      runs.errors.emplace_back().failure =
+          fmt::format("{} [{}]", objection_text(*method, *objection), objection->code.name());
       continue;
     }
     MeshSink sink(known);
@@ -157,6 +185,11 @@ std::optional<MeshRuns> run_mesh(const PathRequest& request, const Methods& list
     const auto outcome = method->prepare(problem, known.step)->advance(watched);
     if (outcome.stopped_by_sink) return {};
     runs.errors.push_back(sink.errors(outcome));
+  }
+  for (const auto& solver : request.solvers) {
+    auto errors = errors_of(solver, known, interrupt);
+    if (!errors) return {};
+    runs.errors.push_back(std::move(*errors));
   }
   return runs;
 }
@@ -169,7 +202,7 @@ record::Sheet crossings_of(const std::vector<double>& paths, const std::string& 
                       name + ": error in time of each step beside that of the mesh",
                       {{"elements", "", "of the mesh"},
                        {"h", "m", "length of an element"},
-                       {"e_space", "", "error of the mesh"}},
+                       {"e_space", "", "error of the mesh, over the largest u"}},
                       {}};
   for (const double nu : paths)
     sheet.columns.push_back({fmt::format("{:g} h/c", nu), "", "e_time with this step"});
@@ -204,7 +237,7 @@ record::Sheet crossings_of(const std::vector<double>& paths, const std::string& 
   return sheet;
 }
 
-PathStudy study_of(const PathRequest& request, const Methods& list,
+PathStudy study_of(const PathRequest& request, const std::vector<Judged>& list,
                    const std::vector<MeshRuns>& meshes) {
   const bool several = request.nu.size() > 1;
   constexpr std::size_t most_curves = 8;  // beside that of the mesh
@@ -250,9 +283,8 @@ PathStudy study_of(const PathRequest& request, const Methods& list,
       curves.rows.push_back({mesh.h, record::cell_of(mesh.e_space)});
   PathStudy study;
   for (std::size_t m = 0; m < list.size(); ++m) {
-    const auto facts = list[m]->facts();
-    const auto name = methods::short_name(facts.name);
-    const auto expected = expected_along_path(facts.smooth_order);
+    const auto& [name, smooth_order] = list[m];
+    const auto expected = expected_along_path(smooth_order);
     for (const double nu : request.nu) {
       Ladder ladder;
       const bool is_drawn = nu == request.nu.front() && m < most_curves;
@@ -325,7 +357,7 @@ PathStudy follow_path(const PathRequest& request, const Progress& progress,
   std::vector<MeshRuns> finished;
   for (auto& run : runs)
     if (run) finished.push_back(std::move(*run));
-  auto study = study_of(request, list, finished);
+  auto study = study_of(request, all_of(request, list), finished);
   study.interrupted = finished.size() < runs.size();
   return study;
 }

@@ -8,18 +8,22 @@
 #include "clackers/base/jobs/progress.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/record/sheet.hpp"
+#include "clackers/solvers/solver.hpp"
 
 namespace clackers::study {
 
 /// Methods on finer and finer meshes of bars with steps in proportion to the elements, against the bars themselves.
 struct PathRequest {
-  std::vector<std::string> methods;  ///< specifications; empty: the default panel
+  /// Specifications; empty, without solvers: the default panel.
+  std::vector<std::string> methods;
   std::string case_name;
   cases::Settings settings;      ///< `elements` are those of the coarsest mesh
   std::vector<double> nu{0.45};  ///< c step/h of each path, of the bar where the step is shortest
   int levels = 3;                ///< of meshes, each twice as fine as the one before
   int samples_per_level = 8;     ///< meshes of each
   int jobs = 0;                  ///< threads; 0: one per processor
+  /// Programs, judged by the u and v of all masses in their histories, with a row at every step.
+  std::vector<solvers::SolverSubject> solvers;
 };
 
 struct PathStudy {
@@ -34,7 +38,7 @@ struct PathStudy {
 };
 
 /// Throws InputError before any work for a case that is no mesh (no-closed-form), unless 1e-3 <= nu <= 100, for steps or
-/// meshes that are too many, for adaptive methods, and as verify() does. A run that fails is a row that says so.
+/// meshes that are too many, for adaptive methods and solvers, and as verify() does. A run that fails is a row that says so.
 PathStudy follow_path(const PathRequest& request, const Progress& progress = {},
                       const std::atomic<bool>* interrupt = nullptr);
 

@@ -1,11 +1,14 @@
 #include "clackers/study/path.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/methods/registry.hpp"
+#include "clackers/model/trajectory.hpp"
 
 namespace clackers::study {
 namespace {
@@ -151,6 +154,56 @@ TEST(Path, FindsTheStepBelowWhichTheMeshDecides) {
   EXPECT_TRUE(reading(follow_path(few), 0).starts_with("undecided: u 0.2"));
 }
 
+// Central differences as a program: the histories are its columns in memory.
+class InMemory : public solvers::Solver {
+ public:
+  InMemory(const model::ImpactProblem<>& problem, std::size_t rows_between)
+      : problem_(problem), rows_between_(rows_between) {}
+  solvers::SolverOutput run(const solvers::SolverRun& run, const std::atomic<bool>*) override {
+    model::TrajectorySink sink(false);
+    methods::method("central-difference")->prepare(problem_, run.step)->advance(sink);
+    const auto motion = std::make_shared<model::Trajectory>(sink.trajectory());
+    const auto n = motion->dof;
+    const auto stride = std::ptrdiff_t(rows_between_);
+    input::NumberColumns columns{"run", (motion->t.size() - 1) / rows_between_ + 1, {}};
+    columns.columns.push_back({"t", motion->t.data(), stride});
+    for (int i = 0; i < n; ++i) {
+      columns.columns.push_back({fmt::format("u{}", i + 1), motion->u.data() + i, stride * n});
+      columns.columns.push_back({fmt::format("v{}", i + 1), motion->v.data() + i, stride * n});
+    }
+    solvers::SolverOutput output;
+    output.history = columns;
+    output.memory = motion;
+    return output;
+  }
+
+ private:
+  model::ImpactProblem<> problem_;
+  std::size_t rows_between_;
+};
+
+TEST(Path, ProgramsHaveTheErrorsOfTheirMethod) {
+  auto programs = request({"central-difference"});
+  for (const std::size_t rows_between : {1u, 3u})
+    programs.solvers.push_back({.name = fmt::format("program{}", rows_between),
+                                .claim = {},
+                                .tolerances = {},
+                                .steps = {},
+                                .prepare = [=](const cases::Case& problem) {
+                                  return std::make_unique<InMemory>(problem.problem, rows_between);
+                                }});
+  const auto study = follow_path(programs);
+  auto finest = by_method(study.sheets[1]);
+  ASSERT_EQ(finest["program1"].size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(finest["program1"][i], finest["central-difference"][i],
+                1e-9 * std::abs(finest["program1"][0]));
+  EXPECT_EQ(reading(study, 1), "as expected");
+  EXPECT_TRUE(reading(study, 2).starts_with("failed: Its history has no row at t = "));
+  programs.solvers.front().tolerances = {1e-3};
+  EXPECT_REFUSED(follow_path(programs), "not-admissible", "program1 chooses its steps");
+}
+
 TEST(Path, RefusesWithTheReason) {
   auto masses = request({"newmark"});
   masses.case_name = "stop";
@@ -167,7 +220,9 @@ TEST(Path, RefusesWithTheReason) {
   EXPECT_REFUSED(follow_path(few), "out-of-range", "three meshes");
   EXPECT_REFUSED(follow_path(request({"dop853"})), "not-admissible", "chooses its steps");
   const auto study = follow_path(request({"newmark+penalty"}, {{"mass", "lumped"}}));
-  EXPECT_EQ(reading(study, 0), "failed: penalty-needs-elastic");
+  EXPECT_EQ(reading(study, 0),
+            "failed: with eta = 0: the law linear is elastic, so it models only eta = 1. Use "
+            "penalty:law=kelvin-voigt or event-driven. [penalty-needs-elastic]");
   // Errors too large to be squared spoil no other row.
   auto unstable = request({"newmark", "central-difference"});
   unstable.nu = {0.45, 1.8};

@@ -240,7 +240,8 @@ TEST(Verify, KeepsAMethodThatObjectsWithItsReason) {
   request.settings.emplace_back("eta", 0.5);
   const auto record = verify(request);
   EXPECT_TRUE(subjects(record)[0].refusal.empty());
-  EXPECT_FALSE(subjects(record)[1].refusal.empty());
+  // The name stands beside it.
+  EXPECT_TRUE(subjects(record)[1].refusal.starts_with("with eta = 0.5: the law linear"));
   EXPECT_EQ(subjects(record)[1].refusal_code, "penalty-needs-elastic");
   EXPECT_TRUE(subjects(record)[1].complete);
   EXPECT_TRUE(subjects(record)[1].levels.empty());

@@ -128,8 +128,8 @@ record::Record run_study(const Options& options, const study::VerifyRequest& req
 
 // The other ladder, of meshes: orders and errors as sheets.
 int run_path(const Options& options, const std::string& line) {
-  for (const auto& [name, given] : {std::pair{"--exec", options.programs.any()},
-                                    {"--film", !options.film.empty()},
+  for (const auto& [name, given] : {std::pair{"--film", !options.film.empty()},
+                                    {"--tolerances", !options.programs.tolerances.empty()},
                                     {"--baseline", !options.baseline.empty()},
                                     {"--require", !options.requirements.empty()},
                                     {"--only", !options.only.empty()},
@@ -145,6 +145,7 @@ int run_path(const Options& options, const std::string& line) {
   request.methods = options.methods;
   request.case_name = options.cases.empty() ? "bar-wall" : options.cases.front();
   request.settings = read_settings(options.settings, {});
+  request.solvers = program_subjects(options.programs);
   request.nu.clear();
   for (const auto& part : parts_of("--path", options.path))
     request.nu.push_back(read_number("--path", part));
@@ -239,8 +240,8 @@ void add_verify(Grammar& root) {
                 "           [--levels n] [--coarsest h] [--samples-per-level n] [--budget TIME]\n"
                 "           [--jobs n] [--require WHAT] [--baseline FILE.json]\n"
                 "           [--only VERDICT] [--report FILE.html] [--film FILE.webm|gif]\n"
-                "  clackers verify [METHOD ...] [--case CASE] --path nu,... [--levels n]\n"
-                "           [--report FILE.html]\n"
+                "  clackers verify [METHOD ...] [--exec COMMAND ...] [--case CASE] --path nu,...\n"
+                "           [--levels n] [--report FILE.html]\n"
                 "  clackers verify [METHOD ...] --exec COMMAND ...\n"
                 "           [--name NAME ...] [--expect BEHAVIOUR[:ORDER]] [--tolerances a:b]\n"
                 "           [--timeout TIME] [--work FOLDER] [--fresh]\n"
@@ -268,12 +269,15 @@ void add_verify(Grammar& root) {
       app->add_option("--" + std::string(option.former), value, "The former name of " + name + ".")
           ->option_text(std::string(option.placeholder));
   }
-  app->add_option("--path", options->path,
-                  "Instead of a fixed mesh: finer and finer meshes of a bar (default bar-wall, "
-                  "--levels 3, from `elements` on) with steps of nu h/c, 1e-3 to 100, against the "
-                  "bar itself. Prints orders and those to expect, and of each run the errors of "
-                  "integrator and mesh. With several nu a table of each method has the errors of "
-                  "every mesh and step, and the step at which both errors are equal.")
+  app->add_option(
+         "--path", options->path,
+         "Instead of a fixed mesh: finer and finer meshes of a bar (default bar-wall, "
+         "--levels 3, from `elements` on) with steps of nu h/c, 1e-3 to 100, against the "
+         "bar itself. Prints orders and those to expect, and of each run the errors of "
+         "integrator and mesh. With several nu a table of each method has the errors of "
+         "every mesh and step, and the step at which both errors are equal. Programs "
+         "(--exec) are to write u and v of all masses at every step; orders are those of a "
+         "method of order 2 unless --expect has another.")
       ->option_text("nu,...");
   add_program_options(*app, options->programs);
   add_require_option(*app, options->requirements);

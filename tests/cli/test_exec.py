@@ -109,6 +109,21 @@ class Examples(ExecTest):
             done = run("verify", "--exec", command, "--case", case, *SHORT[-4:])
             self.assertIn(f"mass = {mass}; allowed: lumped", done.stderr)
 
+    def test_elements_along_a_path(self):
+        command = f"python3 {SOLVERS}/bar.py {{case}} {{h}} {{out}}"
+        path = ("--case", "bar-wall", "--path", "0.45", "--levels", "1", "--samples-per-level", "4", "--format", "json")
+        done = run("verify", "--exec", command, *path, "--set", "mass=lumped,elements=8")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        orders, finest, _, runs = json.loads(done.stdout)["sheets"]
+        self.assertEqual([row[0] for row in orders["rows"]], ["bar"])
+        self.assertLess(finest["rows"][0][1], 0.2)
+        self.assertEqual([row[-1] for row in runs["rows"]], [""] * 4)
+        refused = json.loads(run("verify", "--exec", command, *path).stdout)["sheets"][0]["rows"][0][-1]
+        self.assertIn("[program-failed]", refused)
+        done = run("verify", "--exec", command, *path, "--tolerances", "1e-3:1e-6")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--tolerances", done.stderr)
+
     def test_are_short(self):
         for name in os.listdir(SOLVERS):
             if name != "README.md":

@@ -19,7 +19,7 @@ from solvers import scipy_flights
 
 CASE = clackers.case("three-parameter", N=2, xi1=0.05)
 RECORD = clackers.verify("rk4", "newmark+reversal", case=CASE, levels=4, samples_per_level=3)
-ENERGIES = ("kinetic", "potential", "dissipated", "lost", "total")
+ENERGIES = ("kinetic", "potential", "dissipated", "lost", "work", "total")
 
 
 def lines(axes):

@@ -103,8 +103,8 @@ def response(
 
 
 def energies(case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = None, width: float = COLUMN) -> Axes:
-    """Where the energy is against time: kinetic, potential, dissipated, lost in impacts, total, and work where
-    ``Case.energies`` has it.
+    """Where the energy is against time: kinetic, potential, dissipated, lost in impacts, work and total, as far as
+    ``Case.energies`` has them.
 
     Where a time is that of an impact, the limits of both sides are drawn.
 
@@ -137,7 +137,7 @@ def energies(case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = No
     times, hits = _times(case, t)
     table = case.energies(times)
     with _axes(ax, width) as axes:
-        for number, name in enumerate(("kinetic", "potential", "dissipated", "lost", "total", "work")):
+        for number, name in enumerate(("kinetic", "potential", "dissipated", "lost", "work", "total")):
             if name in table:
                 axes.plot(table["t"], table[name], label=name, **_line(_look(number)))
         _mark(axes, hits)

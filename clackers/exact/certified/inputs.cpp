@@ -37,9 +37,8 @@ Inputs::Inputs(const model::Motion& motion) {
   const auto* known = exact::as_closed_form(motion);
   if (known == nullptr)
     throw InputError(
-        "digits: this motion is known to double precision only; allowed: the cases of one mass and of "
-        "the synchronized pair, buildings, row, alternating and assembly, penalized-pair, "
-        "cradle, forced-pair, base-excited-pair, circle-billiard, oblique-disk and problem files.",
+        "digits: this motion is known to double precision only; allowed: cases and problem files "
+        "with linear springs and without dry friction between impacts.",
         "no-enclosure");
   *this =
       std::visit([](const auto& parameters) { return Inputs(parameters); }, known->parameters());

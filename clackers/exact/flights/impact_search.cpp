@@ -239,7 +239,7 @@ void PiecewiseMotion::Builder::refuse_graze(std::size_t i, double t, double gap,
       fmt::format(
           "{}: contact {} comes within {:.3g} m near t = {:.9g} s without a certain impact, "
           "and the error there is {:.3g} m; allowed: motions whose impacts are certain. "
-          "Change the gap by more, or end the run earlier.",
+          "Change a number of the problem, or end the run earlier.",
           m_.who_, i + 1, std::abs(gap), t, error),
       "not-admissible");
 }

@@ -81,6 +81,12 @@ void PiecewiseMotion::sample(std::span<const double> times, Side side,
       Eigen::Map<VectorXd>(out.a.data() + (i + k) * n, dof()) =
           modes.acceleration(now.col(Index(k)), times[i + k]);
   }
+  // The start is given, not the sum of its modes.
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i] != flights_.front().t || flight_at(times[i], side) != 0) continue;
+    std::ranges::copy(problem_.start.u, out.u.begin() + std::ptrdiff_t(i * n));
+    std::ranges::copy(problem_.start.v, out.v.begin() + std::ptrdiff_t(i * n));
+  }
 }
 
 FlightErrors PiecewiseMotion::errors_after(const Flight& flight, double s) const {

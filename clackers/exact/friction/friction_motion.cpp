@@ -131,6 +131,20 @@ auto Belt::state(long long k, const Bounded& s) const -> States {
   return {{{d_ + wave, V_ * c - omega_ * D_ * n, -(omega_ * omega_ * wave)}}};
 }
 
+namespace {
+
+// Friction of alternating sign has all odd harmonics of W; at b = W/sqrt(k/m) = 1/n one of them is resonant.
+std::string near_resonance(const Bounded& b) {
+  const auto n = 2.0 * std::floor(0.5 / b.nearest()) + 1.0;
+  if (n < 3.0) return {};
+  return fmt::format(
+      " No friction is small enough at W = sqrt(k/m)/n with n odd, where harmonic n of the friction "
+      "is in resonance; the nearest n is {:.0f}, and W sqrt(m/k) = {:.6g}. Take another W.",
+      n, b.nearest());
+}
+
+}  // namespace
+
 ForcedSlider::ForcedSlider(const ForcedSliderParameters& p, std::string_view who)
     : FrictionMotion(p.m, p.k, {number(1.0), p.F, p.F}, p.end),
       F_(p.F),
@@ -146,8 +160,9 @@ ForcedSlider::ForcedSlider(const ForcedSliderParameters& p, std::string_view who
   tan_ = sin(quarter) / cos(quarter);
   const auto H = tan_ / b, peak = P_ * Vd_, left = peak * peak - F_ * F_ * H * H;
   if (!is_positive(left))
-    refuse(who, "F", p.F, fmt::format("F < P |Vd/H| = {}", (absolute(peak / H)).nearest()),
-           "Friction is too large for a motion that turns without a stop.", "not-admissible");
+    refuse(who, "F", p.F, fmt::format("F < P |Vd/H| = {:.3g}", absolute(peak / H).nearest()),
+           "Friction is too large for a motion that turns without a stop." + near_resonance(b),
+           "not-admissible");
   x0_ = sqrt(left) / k_;
   cos_phi_ = k_ * x0_ / peak;
   sin_phi_ = -(F_ / P_) * H / Vd_;

@@ -26,7 +26,12 @@ long long Flights::flight_at(double t, Side side) const {
 
 Flights::States Flights::at_time(double t, Side side) const {
   const auto k = flight_at(t, side);
-  return state(k, since(k, t));
+  auto now = state(k, since(k, t));
+  // A start that may be at rest is.
+  if (t == 0.0)
+    for (auto& mass : now)
+      if (std::abs(mass.v.value) <= mass.v.error) mass.v = {0.0L, 2.0L * mass.v.error};
+  return now;
 }
 
 void Flights::sample(std::span<const double> times, Side side, model::SampleBuffers out) const {

@@ -65,6 +65,14 @@ bool stays_large(const LadderFit& fit) {
   return *least >= large && fit.errors.back() >= least_fall * *most;
 }
 
+// Whether they are the same on the four finest levels: the runs have a limit.
+bool has_far_limit(const LadderFit& fit) {
+  if (!stays_large(fit)) return false;
+  constexpr double flat = 1.05;
+  const auto [least, most] = std::minmax_element(fit.errors.end() - 4, fit.errors.end());
+  return *most < flat * *least;
+}
+
 // Whether printed digits are what stops the fit. It knows them as the rounding of its levels: it
 // calls `exact` what lies below them throughout, and finds too few levels where they begin early.
 bool stopped_by_printing(const LadderFit& fit, const measure::RunScore& finest,
@@ -109,6 +117,7 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
                        const JudgeContext& facts) {
   const bool open = !shows_a_line(fit) && fit.behaviour != Behaviour::exact &&
                     fit.reason != Code("contact-not-resolved").name();
+  const bool of_another_model = facts.contact_time > 0.0 && !claim.is_made() && has_far_limit(fit);
   // Less than all of the initial energy too much: a motion that should have decayed, and has not grown.
   const auto too_much = [](const measure::RunScore& run) {
     return run.energy_ratio > largest_energy_ratio && !(run.energy_error < 1.0);
@@ -119,13 +128,18 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
   if (claim.behaviour == Behaviour::exact && is_growing_rounding(fit, ladder)) {
     fit.behaviour = Behaviour::exact;
     fit.reason.clear();
-  } else if (open && !facts.wrong_limit && !errors_fall(fit) && energy_is(ladder, too_much)) {
+  } else if (open && !facts.wrong_limit && !of_another_model && !errors_fall(fit) &&
+             energy_is(ladder, too_much)) {
     fit.behaviour = Behaviour::divergent;
     fit.reason = Code("energy-growth").name();
   } else if (open && facts.shared && comes_from_shared_impacts(*facts.shared) &&
              (is_unexplained_floor(fit) || stays_large(fit))) {
     if (fit.behaviour == Behaviour::undecided) fit.behaviour = Behaviour::divergent;
     fit.reason = Code("simultaneous-impacts").name();
+  } else if (open && of_another_model) {
+    fit.behaviour = Behaviour::stagnating;
+    fit.reason = Code("contact-stiffness").name();
+    fit.floor = fit.errors.back();
   } else if (is_unexplained_floor(fit) && fit.floor > large_error && !claim.reason.empty() &&
              (claim.behaviour == Behaviour::undecided || claim.behaviour == Behaviour::divergent)) {
     fit.reason = claim.reason;

@@ -81,7 +81,8 @@ struct JudgeContext {
 ///
 ///     divergent [energy-growth]     no line, errors that do not fall, and most runs of both finest
 ///                                   levels end with more than twice the true energy and with
-///                                   more than it had at the start
+///                                   more than it had at the start, unless a compliant law has
+///                                   another limit (below)
 ///     divergent [simultaneous-impacts]
 ///                                   undecided, the errors of the four finest levels are as large as
 ///                                   the motion and do not fall, and they come from impacts of one
@@ -89,6 +90,10 @@ struct JudgeContext {
 ///     stagnating [simultaneous-impacts]
 ///                                   at an unexplained or a rough floor that comes from them, and at
 ///                                   any that is as large as the motion
+///     stagnating [contact-stiffness]
+///                                   a compliant law that claims nothing, as that of dry friction, whose
+///                                   errors are as large as the motion and the same on the four finest
+///                                   levels
 ///     stagnating [reason claimed]   at such a floor above `large_error`, where a claim to diverge, or
 ///                                   none, names its reason
 ///     undecided [numerical-damping] undecided with falling errors, and most of those runs end with

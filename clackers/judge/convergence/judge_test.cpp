@@ -527,6 +527,22 @@ TEST(Judge, EnergyThatGrowsWhileErrorsDoNotFallDiverges) {
   }
 }
 
+// Of a compliant law that is resolved, the model is another.
+TEST(Judge, EnergyOfAFarLimitOfACompliantLawIsOfTheModel) {
+  const auto judged = [](auto error, const Claim& claim = {}) {
+    auto ladder = scores(error);
+    every_run(ladder, 0, [](measure::RunScore& run) { grown(run, 160.0); });
+    return judge(ladder, claim, {.contact_time = 0.25}).displacement;
+  };
+  const auto limit = judged([](double h) { return 1.1 + h * h; });
+  EXPECT_EQ(limit.behaviour, Behaviour::stagnating);
+  EXPECT_EQ(limit.reason, "contact-stiffness");
+  EXPECT_NEAR(limit.floor, 1.1, 1e-3);
+  EXPECT_EQ(judged([](double h) { return 1.1 * std::pow(h, -0.1); }).reason, "energy-growth");
+  // A contact so soft that the motion is another one is not the floor that is claimed.
+  EXPECT_EQ(judged([](double h) { return 1.1 + h * h; }, floor_claim).reason, "energy-growth");
+}
+
 TEST(Judge, AMotionThatDoesNotDecayAsItShouldHasNotGrown) {
   auto ladder = scores([](double h) { return 0.4 + 0.1 * h; });
   every_run(ladder, 0, [](measure::RunScore& run) {

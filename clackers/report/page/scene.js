@@ -263,7 +263,7 @@ function outlineColor(run) { return run === 0 ? "var(--ink)" : `var(--m${(run + 
 // Arrows of the forces of contacts that stay closed, the largest of them `room` units long. The function returned draws
 // those of an instant.
 function drawForces(svg, forces, { touch, push, room = 40 }) {
-  const largest = Math.max(...forces.u.flat(), Number.MIN_VALUE);
+  const largest = Math.max(...forces.u.flat(), 0);
   const arrows = forces.u.flatMap((of, contact) => (of.every((force) => !(force > 0)) ? [] : [{
     contact,
     path: svgElement(svg, "path", { stroke: "var(--impact)", "stroke-width": 3, fill: "none", visibility: "hidden", "data-force": contact })
@@ -299,7 +299,7 @@ function drawMotion(svg, scene, most) {
     times: scene.impacts.filter((impact) => impact.contact === contact).map((impact) => impact.t),
     mark: svgElement(svg, "circle", { r: 13, fill: "var(--impact)", opacity: 0, "data-contact": contact })
   }));
-  const pushAt = drawForces(svg, scene.forces, drawn);
+  const pushAt = drawForces(svg, scene.forces ?? { t: [0], u: [] }, drawn);
   const clock = svgElement(svg, "text", { x: stageWidth - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" });
   return (now, runs) => {
     const u = valuesAt(scene, now);

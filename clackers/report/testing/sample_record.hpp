@@ -169,8 +169,7 @@ inline record::Subject sample_refusal() {
   record::name_method(refused, "newmark+penalty:stiffness=1e6");
   refused.claim = {Behaviour::stagnating, 0, "contact-stiffness"};
   refused.refusal =
-      "newmark+penalty with eta = 0.5: a linear penalty spring is elastic, so it models only eta = "
-      "1.";
+      "with eta = 0.5: a linear penalty spring is elastic, so it models only eta = 1.";
   refused.refusal_code = "penalty-needs-elastic";
   return refused;
 }

@@ -143,7 +143,8 @@ std::string remark(const record::Subject& subject, const judge::Evidence& eviden
   if (is("unstable-coarse-steps"))
     return fmt::format("Runs above {} fail or grow without bound.",
                        resolution_text(subject, number(0)));
-  if (is("steps-per-contact")) return fmt::format("A contact has {} steps.", text(0));
+  if (is("steps-per-contact"))
+    return fmt::format("A contact, or a reversal of regular friction, has {} steps.", text(0));
   if (is("more-samples"))
     return fmt::format("The order is uncertain by ±{}: use more samples per level.", text(1));
   if (is("velocity-order-lower"))

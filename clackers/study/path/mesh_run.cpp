@@ -1,10 +1,17 @@
 #include "clackers/study/path/mesh_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
+#include "clackers/base/error.hpp"
 #include "clackers/exact/bodies/bar_mesh.hpp"
+#include "clackers/input/history.hpp"
+#include "clackers/solvers/work_folder.hpp"
+#include "clackers/study/check/history/prepared_history.hpp"
 
 namespace clackers::study {
 namespace {
@@ -126,6 +133,64 @@ MeshErrors MeshSink::errors(const model::Outcome& outcome) const {
            next_ < known_.times.size())
     found.failure = "diverges";
   return found;
+}
+
+namespace {
+
+MeshErrors failed(std::string_view sentence, std::string_view code) {
+  MeshErrors errors;
+  errors.failure = fmt::format("{} [{}]", sentence, code);
+  return errors;
+}
+
+// Compares the rows at the times of the reference; those between are passed over.
+MeshErrors compared(const input::History& history, const MeshReference& known) {
+  constexpr double apart = 1e-3;  // of a step: what printing leaves
+  const auto& [dof, t, u, v, a, impacts] = history.motion;
+  const auto n = std::size_t(dof);
+  if (v.empty() || std::ranges::count(history.has_u, false) > 0)
+    return failed("Its history has not u and v of all masses.", "no-column");
+  MeshSink sink(known);
+  const auto& start = known.mesh.problem.start;
+  sink.take(
+      model::SampleBlock{dof, std::span(&start.t, 1), {start.u.data(), n}, {start.v.data(), n}});
+  for (const double time : known.times) {
+    const auto after = std::ranges::lower_bound(t, time - apart * known.step);
+    if (after == t.end() || *after > time + apart * known.step)
+      return failed(fmt::format("Its history has no row at t = {:.9g} s, after a whole number of "
+                                "steps.",
+                                time),
+                    "time-outside");
+    const auto row = std::size_t(after - t.begin());
+    sink.take(model::SampleBlock{dof, std::span(&time, 1), {&u[row * n], n}, {&v[row * n], n}});
+  }
+  return sink.errors({});
+}
+
+}  // namespace
+
+std::optional<MeshErrors> errors_of(const solvers::SolverSubject& solver,
+                                    const MeshReference& known,
+                                    const std::atomic<bool>* interrupt) {
+  const auto& problem = known.mesh.problem;
+  const solvers::SolverRun run{known.step, std::llround(problem.end / known.step)};
+  const auto prepared = solver.prepare(known.mesh);
+  prepared->expect({run});
+  const auto output = prepared->run(run, interrupt);
+  if (output.interrupted) return {};
+  if (!output.history) return failed(output.failure, output.failure_code);
+  try {
+    const auto history = input::read_history(
+        *output.history, {.dof = int(problem.dof()), .step = known.step, .interrupt = interrupt});
+    require_masses(input::name_of(*output.history), history);
+    return compared(history, known);
+  } catch (const Error& error) {
+    if (error.code() == Code("interrupted")) return {};
+    const std::filesystem::path file = input::path_of(*output.history);
+    return failed(file.empty() ? std::string(error.what())
+                               : solvers::without_folder(error.what(), file.parent_path()),
+                  error.code().name());
+  }
 }
 
 }  // namespace clackers::study

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -7,6 +9,7 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/model/run.hpp"
+#include "clackers/solvers/solver.hpp"
 
 namespace clackers::study {
 
@@ -39,7 +42,7 @@ MeshReference mesh_reference(cases::Case mesh, double elements, double nu);
 /// Errors of a run on a mesh, as columns say them.
 struct MeshErrors {
   double e_total = 0.0, e_time = 0.0, v_l1 = 0.0, v_l2 = 0.0, energy = 0.0;
-  std::string failure;  ///< a code; empty where there are errors
+  std::string failure;  ///< a code, or why there is no run; empty where there are errors
 };
 
 /// Compares the states at the times of the reference as they come.
@@ -65,5 +68,9 @@ class MeshSink : public model::Sink {
   double v_error_ = 0.0, v_size_ = 0.0, v_square_error_ = 0.0, v_square_ = 0.0;
   double energy_ = 0.0, energy_0_ = 0.0;
 };
+
+/// Of a solver's run on the mesh; nothing when interrupted.
+std::optional<MeshErrors> errors_of(const solvers::SolverSubject& solver,
+                                    const MeshReference& known, const std::atomic<bool>* interrupt);
 
 }  // namespace clackers::study

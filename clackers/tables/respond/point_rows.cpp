@@ -1,4 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
@@ -10,6 +13,14 @@ namespace clackers::tables {
 namespace {
 
 constexpr long long most_times = 1'000'000;
+
+std::vector<std::string_view> cases_with_elements() {
+  std::vector<std::string_view> names;
+  for (const auto& entry : cases::entries())
+    if (std::ranges::count(entry.parameters, "elements", &Parameter::name) > 0)
+      names.push_back(entry.name);
+  return names;
+}
 
 struct Place {
   std::size_t bar = 0;
@@ -123,10 +134,9 @@ std::unique_ptr<record::RowSource> points(const cases::Case& test_case, const Ti
   if (!test_case.bars)
     throw InputError(
         fmt::format(
-            "respond: points are those of a bar or a string; {} has masses. Leave --at out, or take a "
-            "case with them: bar-wall, bar-between-stops, bouncing-bar, two-bars, mass-on-bar, "
-            "string-over-point.",
-            test_case.entry->name),
+            "respond: points are those of a bar or a string; {} has masses. Leave --at out, "
+            "or take a case with them: {}.",
+            test_case.entry->name, fmt::join(cases_with_elements(), ", ")),
         "no-closed-form");
   if (grid.size() > most_times)
     refuse("respond", "times", double(grid.size()), "at most 1e6 with --at", {}, "too-many-rows");

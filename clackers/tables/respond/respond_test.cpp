@@ -184,6 +184,29 @@ TEST(Impacts, OfOneMassLeaveOutTheSecond) {
   EXPECT_TRUE(all_rows(*impacts(none)).empty());
 }
 
+TEST(Points, OfMassesAreRefusedWithAllCasesThatHaveThem) {
+  const auto refusal = test::refusal_of([] { points(toy(1, 4.0, {}), grid_of(2, 4.0), {0.0}); });
+  for (const auto& entry : cases::entries())
+    EXPECT_EQ(refusal.find(" " + entry.name) != std::string::npos,
+              cases::make(entry.name).bars != nullptr)
+        << entry.name;
+}
+
+#ifdef CLACKERS_HAS_ARB
+TEST(Digits, AreOfLinearSpringsWithoutDryFriction) {
+  for (const auto& entry : cases::entries()) {
+    const auto test_case = cases::make(entry.name);
+    const auto& problem = test_case.problem;
+    const auto& springs = problem.system.nonlinear;
+    const bool is_refused = test::refusal_of([&] {
+                              respond(test_case, grid_of(2, problem.end), 20);
+                            }).find("without dry friction") != std::string::npos;
+    EXPECT_EQ(is_refused, !problem.frictions.empty() || (springs && !springs->has_kinks()))
+        << entry.name;
+  }
+}
+#endif
+
 TEST(ResponseCurve, HoldsOneRowAMassOverTheWholeRun) {
   const auto curve = response_curve(toy(2, 4.0, {1.0}), 5);
   EXPECT_EQ(curve.t, (std::vector<double>{0, 1, 2, 3, 4}));

@@ -13,6 +13,24 @@
 #include "clackers/study/check/initial_state.hpp"
 
 namespace clackers::study {
+
+void require_masses(const std::string& name, const input::History& history) {
+  const auto dof = history.motion.dof;
+  const auto has = [&](int mass) {
+    return std::ranges::count(history.names, fmt::format("u{}", mass)) > 0;
+  };
+  int given = dof;
+  while (has(given + 1)) ++given;
+  if (given > dof)
+    throw InputError(
+        fmt::format("{} has displacements up to u{}; allowed: {}. It is a history of another case "
+                    "or another mesh. Skip what is no displacement of the case with --columns (_).",
+                    name, given,
+                    dof == 1 ? std::string("u1, the mass of this case")
+                             : fmt::format("u1 to u{}, the masses of this case", dof)),
+        "not-this-case");
+}
+
 namespace {
 
 class Preparation {
@@ -29,6 +47,7 @@ class Preparation {
   }
 
   PreparedHistory run() {
+    require_masses(file_.file, h_);
     if (!h_.has_time) start_times();
     find_printed_floor();
     const auto opening = take_opening();

@@ -19,9 +19,12 @@ struct PreparedHistory {
   bool has_all_u = true;     ///< displacements of all masses are known
 };
 
+/// Throws InputError (not-this-case) for a column of the displacement of one mass more than the history was read for.
+void require_masses(const std::string& name, const input::History& history);
+
 /// Sets times, leaves rows after the end of the case out, finds what printing hides, and compares
-/// the first row with the case's. Throws InputError as check() does for times outside the case and
-/// another start.
+/// the first row with the case's. Throws InputError as check() does for more masses, times outside the case
+/// and another start.
 PreparedHistory prepare(const HistoryTask& task, input::History data, const cases::Case& problem,
                         const record::CaseSummary& summary);
 
