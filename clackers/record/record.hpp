@@ -63,7 +63,8 @@ struct CaseSummary {
   std::vector<int> impact_contacts;  ///< the contact of each, from 0
   Schematic drawing;
   long long impact_count = 0;
-  Curve contact_forces{};  ///< of those that stay closed [N], one row a contact; empty where none does
+  Curve
+      contact_forces{};  ///< of those that stay closed [N], one row a contact; empty where none does
 };
 
 using judge::RefinementPlan;

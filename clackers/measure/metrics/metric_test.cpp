@@ -119,7 +119,8 @@ TEST(Metrics, ConvergeThroughShiftedJumpsExactlyWhenTheyClaimTo) {
     }
   }
   for (std::size_t i = 0; i < errors().size(); ++i) {
-    if (errors()[i].name.starts_with("rest-")) continue;  // no contact of these motions stays closed
+    if (errors()[i].name.starts_with("rest-"))
+      continue;  // no contact of these motions stays closed
     EXPECT_TRUE(is_measured[i]) << errors()[i].name;
     EXPECT_EQ(floors[i], !errors()[i].across_jumps) << errors()[i].name;
   }
