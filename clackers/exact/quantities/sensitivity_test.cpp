@@ -309,17 +309,17 @@ TEST(Sensitivity, IsRefusedWithoutRestitutionAndForUnknownNames) {
         << text;
     EXPECT_NE(text.find("[no-derivative]"), std::string::npos);
   }
-  EXPECT_NE(refusal([&] { class_sensitivity(plastic, "eta"); }).find("[no-derivative]"),
+  EXPECT_NE(refusal_of([&] { class_sensitivity(plastic, "eta"); }).find("[no-derivative]"),
             std::string::npos);
   // All else is smooth within the class, and zero at rest.
   const auto xi1 = class_sensitivity(plastic, "xi1");
   EXPECT_GT(xi1->at(1.0, Side::left).u.norm(), 0.1);
   EXPECT_EQ(xi1->at(2.0, Side::left).u.norm(), 0.0);
-  EXPECT_NE(refusal([&] { raw_sensitivity(pair, "k3"); }).find("[unknown-name]"),
+  EXPECT_NE(refusal_of([&] { raw_sensitivity(pair, "k3"); }).find("[unknown-name]"),
             std::string::npos);
-  EXPECT_NE(refusal([&] { raw_sensitivity(RigidStop({}), "m2"); }).find("m1, k1, c1, eta, gap"),
+  EXPECT_NE(refusal_of([&] { raw_sensitivity(RigidStop({}), "m2"); }).find("m1, k1, c1, eta, gap"),
             std::string::npos);
-  EXPECT_NE(refusal([&] { class_sensitivity(pair, "X"); }).find("m1, k1, xi1, A, r, eta"),
+  EXPECT_NE(refusal_of([&] { class_sensitivity(pair, "X"); }).find("m1, k1, xi1, A, r, eta"),
             std::string::npos);
   EXPECT_THROW(raw_sensitivity(pair, "m1")->at(-1.0, Side::left), InputError);
   EXPECT_THROW(class_sensitivity(pair, "m1")->at(21.0, Side::left), InputError);

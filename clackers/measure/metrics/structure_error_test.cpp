@@ -132,7 +132,7 @@ TEST(RestError, IsThatOfTheLaterHalfOfAClosedContact) {
                      rest_error(comparison, Rest::speed).value);
   };
   EXPECT_NEAR(both().first, 0.0, 1e-15);
-  for (const std::size_t outside : {0, 1, 4})
+  for (const std::size_t outside : {0U, 1U, 4U})
     history.u[2 * outside] += 1.0, history.v[2 * outside] += 1.0;
   EXPECT_NEAR(both().first, 0.0, 1e-15);
   EXPECT_NEAR(both().second, 0.0, 1e-15);
