@@ -46,10 +46,6 @@ bool is_as_smooth(const judge::LadderFit& fit, double smooth_order) {
           fit.order >= (1.0 - judge::order_tolerance) * smooth_order);
 }
 
-bool is_convergent(const Claim& claim) {
-  return claim.behaviour == Behaviour::exact || claim.order > 0.0;
-}
-
 bool is_at_step_end(const diagnose::Diagnosis& cause) {
   return cause.code == Code("impact-at-step-end").name();
 }
@@ -321,8 +317,7 @@ void SubjectStudy::decide() {
                                            .family = family_of(problem_.problem)});
   if (is_method()) {
     // Why a method does not converge through impacts, its claim says.
-    if (!is_convergent(subject_.claim) && !subject_.claim.reason.empty())
-      std::erase_if(subject_.diagnoses, is_at_step_end);
+    if (judge::explains_no_order(subject_.claim)) std::erase_if(subject_.diagnoses, is_at_step_end);
     return;
   }
   if (subject_.claim.velocity_order > 0.0)

@@ -7,6 +7,7 @@
 #include "clackers/exact/bodies/bar_motion.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 #include "clackers/record/reduced_curve.hpp"
+#include "clackers/tables/respond.hpp"
 
 namespace clackers::tables {
 namespace {
@@ -26,7 +27,7 @@ double fast_period(const cases::Case& problem) {
 record::Curve contact_forces(const cases::Case& problem) {
   const auto& motion = *problem.motion;
   if (motion.closed_contacts().empty()) return {};
-  constexpr std::size_t times = 1501;
+  constexpr std::size_t times = response_points;
   const auto time = [&](std::size_t k) { return motion.end() * double(k) / double(times - 1); };
   std::vector<Eigen::VectorXd> forces;
   for (std::size_t k = 0; k < times; ++k)

@@ -13,6 +13,12 @@ Mismatch mismatch_of(const LadderFit& fit, const Claim& claim, const JudgeContex
 
 /// Whether its errors fall with an order, of a line or of an envelope.
 bool shows_a_line(const LadderFit& fit);
+
+/// Whether a claim not to converge, to diverge or nothing, has a reason.
+inline bool explains_no_order(const Claim& claim) {
+  return !claim.reason.empty() &&
+         (claim.behaviour == Behaviour::undecided || claim.behaviour == Behaviour::divergent);
+}
 /// Whether errors are those of contacts of few steps, whose upper envelope falls while some are
 /// resolved by chance, whatever floor follows.
 bool is_above_floor(const LadderFit& fit, const JudgeContext& facts);

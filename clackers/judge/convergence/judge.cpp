@@ -140,8 +140,7 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
     fit.behaviour = Behaviour::stagnating;
     fit.reason = Code("contact-stiffness").name();
     fit.floor = fit.errors.back();
-  } else if (is_unexplained_floor(fit) && fit.floor > large_error && !claim.reason.empty() &&
-             (claim.behaviour == Behaviour::undecided || claim.behaviour == Behaviour::divergent)) {
+  } else if (is_unexplained_floor(fit) && fit.floor > large_error && explains_no_order(claim)) {
     fit.reason = claim.reason;
   } else if (fit.behaviour == Behaviour::undecided && open && errors_fall(fit) &&
              energy_is(ladder, too_little)) {

@@ -39,8 +39,8 @@ Json player_data(const record::CaseRecord& problem) {
     impacts.push_back({{"t", rounded(problem.problem.impact_times[k])},
                        {"contact", problem.problem.impact_contacts[k]}});
   const auto& forces = problem.problem.contact_forces;
-  Json pushes = Json::array();
-  for (const auto& force : forces.y) pushes.push_back(rounded_list(force));
+  Json of_contacts = Json::array();
+  for (const auto& force : forces.y) of_contacts.push_back(rounded_list(force));
   Json string = Json::array();
   for (const auto& node : drawing.string) string.push_back({{"x", node.x}, {"mass", node.mass}});
   Json runs = Json::array();
@@ -63,7 +63,7 @@ Json player_data(const record::CaseRecord& problem) {
           {"springs", springs},
           {"contacts", contacts},
           {"impacts", impacts},
-          {"forces", {{"t", rounded_list(forces.t)}, {"u", std::move(pushes)}}},
+          {"forces", {{"t", rounded_list(forces.t)}, {"u", std::move(of_contacts)}}},
           {"leftward", drawing.leftward},
           {"lengths", drawing.lengths},
           {"plane", drawing.plane ? Json(*drawing.plane) : Json(nullptr)},

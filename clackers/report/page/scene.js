@@ -53,8 +53,8 @@ function drawRuler(svg, scale) {
 }
 
 // Draws the system. `place(u)` moves it to these displacements; `outline(attributes)` is another one on top, which its
-// result moves, or hides without displacements; `touch(contact, u)` is where that contact flashes, `push(contact)` are
-// the directions in which its force acts, one a mass.
+// result moves, or hides without displacements; `touch(contact, u)` is where that contact flashes, `directions(contact)` are
+// those in which its force acts, one a mass.
 function drawScene(svg, scene) {
   if (scene.string?.length > 0) return drawString(svg, scene);
   return scene.plane != null || scene.lengths?.length > 0 ? drawBodies(svg, scene) : drawBlocks(svg, scene);
@@ -110,11 +110,11 @@ function drawBlocks(svg, scene) {
     return middle([...(left < 0 ? [] : [[placeOf(u, left) + width / 2, y[left] - blockHeight]]),
       ...(right < 0 ? [] : [[placeOf(u, right) - width / 2, y[right] - blockHeight]])]);
   }
-  const push = (contact) => {
+  const directions = (contact) => {
     const { left, right } = scene.contacts[contact];
     return [...(left < 0 ? [] : [[-1, 0]]), ...(right < 0 ? [] : [[1, 0]])];
   };
-  return { place, outline, touch, push, room: 0.45 * width };
+  return { place, outline, touch, directions, room: 0.45 * width };
 }
 
 // A string whose nodes move up and down, in a scale of their own, above what they may touch: a point, or a line.
@@ -159,7 +159,7 @@ function drawString(svg, scene) {
   }
   return {
     place, outline: (attributes) => draw({ ...attributes, "data-outline": 1, visibility: "hidden" }),
-    touch: (contact) => touched[contact], push: () => [[0, -1]]
+    touch: (contact) => touched[contact], directions: () => [[0, -1]]
   };
 }
 
@@ -240,7 +240,7 @@ function drawBodies(svg, scene) {
       const [x, y] = middle(bodies.filter((_, i) => isPlane || i === left || i === right).map((body) => center(body, u)));
       return axis === 0 ? [x + side * radius, y] : [x, y - side * radius];
     },
-    push: (contact) => {
+    directions: (contact) => {
       const { side, axis } = walls[contact] ?? {};
       return side === undefined ? [[-1, 0], [1, 0]] : [axis === 0 ? [-side, 0] : [0, side]];
     }
@@ -262,7 +262,7 @@ function outlineColor(run) { return run === 0 ? "var(--ink)" : `var(--m${(run + 
 
 // Arrows of the forces of contacts that stay closed, the largest of them `room` units long. The function returned draws
 // those of an instant.
-function drawForces(svg, forces, { touch, push, room = 40 }) {
+function drawForces(svg, forces, { touch, directions, room = 40 }) {
   const largest = Math.max(...forces.u.flat(), 0);
   const arrows = forces.u.flatMap((of, contact) => (of.every((force) => !(force > 0)) ? [] : [{
     contact,
@@ -273,7 +273,7 @@ function drawForces(svg, forces, { touch, push, room = 40 }) {
     path.setAttribute("visibility", force > 0 ? "visible" : "hidden");
     if (!(force > 0)) return;
     const [x, y] = touch(contact, u), head = Math.min(7, length);
-    path.setAttribute("d", [`M${x - 5},${y}a5,5 0 1 0 10,0a5,5 0 1 0 -10,0`, ...push(contact).map(([dx, dy]) => {
+    path.setAttribute("d", [`M${x - 5},${y}a5,5 0 1 0 10,0a5,5 0 1 0 -10,0`, ...directions(contact).map(([dx, dy]) => {
       const tip = [x + dx * length, y + dy * length], back = [tip[0] - dx * head, tip[1] - dy * head];
       return `M${x},${y}L${tip}M${back[0] - dy * head},${back[1] + dx * head}L${tip}L${back[0] + dy * head},${back[1] - dx * head}`;
     })].join(""));
@@ -299,13 +299,13 @@ function drawMotion(svg, scene, most) {
     times: scene.impacts.filter((impact) => impact.contact === contact).map((impact) => impact.t),
     mark: svgElement(svg, "circle", { r: 13, fill: "var(--impact)", opacity: 0, "data-contact": contact })
   }));
-  const pushAt = drawForces(svg, scene.forces ?? { t: [0], u: [] }, drawn);
+  const forcesAt = drawForces(svg, scene.forces ?? { t: [0], u: [] }, drawn);
   const clock = svgElement(svg, "text", { x: stageWidth - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" });
   return (now, runs) => {
     const u = valuesAt(scene, now);
     outlines.forEach((move, run) => move(runs[run] && valuesAt(runs[run], now)));
     place(u);
-    pushAt(now, u);
+    forcesAt(now, u);
     // The latest impact of a contact up to now counts for a moment: a third of the time between two.
     for (const { contact, times, mark } of sparks) {
       const latest = times[countUpTo(times, now) - 1] ?? -Infinity;

@@ -7,6 +7,7 @@
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/study/testing/toy_motion.hpp"
+#include "clackers/tables/case_summary.hpp"
 
 namespace clackers::tables {
 namespace {
@@ -182,6 +183,23 @@ TEST(Impacts, OfOneMassLeaveOutTheSecond) {
   EXPECT_EQ(all_rows(*rows).size(), 1u);
   const auto none = toy(1, 4.0, {});
   EXPECT_TRUE(all_rows(*impacts(none)).empty());
+}
+
+TEST(Summary, HasTheForcesOfContactsThatStayClosed) {
+  EXPECT_TRUE(summary_of(cases::make("stop")).contact_forces.t.empty());
+  const auto problem = cases::make("plastic-pair");
+  const auto curve = summary_of(problem).contact_forces;
+  EXPECT_EQ(curve.t.front(), 0.0);
+  EXPECT_EQ(curve.t.back(), problem.motion->end());
+  ASSERT_EQ(curve.y.size(), 1u);
+  double largest = 0.0;
+  for (std::size_t k = 0; k < curve.t.size(); ++k) {
+    const auto forces = problem.motion->contact_forces(curve.t[k], model::Side::right);
+    ASSERT_EQ(forces.size(), 1);
+    EXPECT_EQ(curve.y[0][k], forces[0]) << curve.t[k];
+    largest = std::max(largest, forces[0]);
+  }
+  EXPECT_GT(largest, 1.0);
 }
 
 TEST(Points, OfMassesAreRefusedWithAllCasesThatHaveThem) {
