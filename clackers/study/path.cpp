@@ -329,8 +329,12 @@ PathStudy study_of(const PathRequest& request, const std::vector<Judged>& list,
   });
   for (auto* sheet : {&orders, &finest})
     if (!several) record::drop_columns(*sheet, [](std::size_t j) { return j == 1; });
-  study.sheets.insert(study.sheets.begin(),
-                      {std::move(orders), std::move(finest), std::move(curves)});
+  study.failed = finest.rows.empty();
+  if (study.failed)
+    study.sheets = {std::move(orders)};
+  else
+    study.sheets.insert(study.sheets.begin(),
+                        {std::move(orders), std::move(finest), std::move(curves)});
   study.runs = std::move(all);
   return study;
 }

@@ -35,6 +35,7 @@ struct PathStudy {
   std::vector<record::Sheet> sheets;
   record::Sheet runs;        ///< a row a method, path and mesh
   bool interrupted = false;  ///< not all meshes were run
+  bool failed = false;  ///< no method and no program has errors: the first sheet alone says why
 };
 
 /// Throws InputError before any work for a case that is no mesh (no-closed-form), unless 1e-3 <= nu <= 100, for steps or

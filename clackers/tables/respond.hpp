@@ -67,6 +67,10 @@ std::unique_ptr<record::RowSource> forces(const cases::Case& test_case, const Ti
 std::unique_ptr<record::RowSource> points(const cases::Case& test_case, const TimeGrid& grid,
                                           const std::vector<double>& places);
 
+/// The times at which the contact of these bars or this string closes and opens, for points(). Throws InputError
+/// as points() does.
+TimeGrid contact_grid(const cases::Case& test_case);
+
 /// The columns of respond() differentiated: t,side,du1,dv1,da1[,du2,dv2,da2]. `name` is a raw
 /// parameter (m1 m2 k1 k2 c1 c2 eta gap u10 u20 v10 v20, all else fixed) or one of the case, what
 /// follows from it following; class:m1 is that of the case where both have the name. Throws

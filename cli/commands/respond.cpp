@@ -75,15 +75,17 @@ void check_kind(const RespondOptions& options) {
     refuse_usage("respond",
                  "takes only one of --at, --energy, --forces, --spectrum and --sensitivity; " +
                      kinds[0] + " and " + kinds[1] + " were given.");
-  if (options.impacts)
+  if (options.impacts && options.at.empty())
     refuse_usage("respond", kinds[0] + " has rows of its own and takes no --impacts.");
   if (!options.digits.empty())
     refuse_usage("respond", kinds[0] + " is computed in doubles and takes no --digits.");
   if (options.ways() == 0)
-    refuse_usage("respond",
-                 kinds[0] + (options.spectrum
-                                 ? " needs --samples n, the number of frequencies."
-                                 : " needs times: one of --samples n, --step h and --times FILE."));
+    refuse_usage(
+        "respond",
+        kinds[0] + (options.spectrum ? " needs --samples n, the number of frequencies."
+                                     : " needs times: one of --samples n, --step h" +
+                                           std::string(options.at.empty() ? "" : ", --impacts") +
+                                           " and --times FILE."));
   if (options.spectrum && options.samples.empty())
     refuse_usage("respond",
                  "--spectrum takes frequencies, not times: --samples n of them up to --highest w.");
@@ -126,6 +128,7 @@ std::unique_ptr<record::RowSource> rows_of(const RespondOptions& options,
       return tables::sensitivity(test_case, grid, options.sensitivity);
     return digits ? tables::respond(test_case, grid, count) : tables::respond(test_case, grid);
   };
+  if (options.impacts && !options.at.empty()) return respond(tables::contact_grid(test_case));
   if (options.impacts)
     return digits ? tables::impacts(test_case, count) : tables::impacts(test_case);
   if (!options.times.empty()) {
@@ -207,6 +210,7 @@ void add_respond(Grammar& root) {
                 "  clackers respond CASE [--set ...]\n"
                 "           (--energy | --forces | --at x,... | --sensitivity NAME)\n"
                 "           (--samples n | --step h | --times FILE) [--plot]\n"
+                "  clackers respond CASE [--set ...] --at x,... --impacts\n"
                 "  clackers respond CASE [--set ...] --spectrum --samples n --highest w\n"});
   app->add_option("CASE", options->name, "The case. All names: clackers list cases.");
   add_case_option(*app, options->behind);
@@ -227,7 +231,8 @@ void add_respond(Grammar& root) {
   app->add_flag(
       "--impacts", options->impacts,
       "The impacts instead: k, t [s], of several contacts which, from 0, u1 [m], velocities "
-      "before and after [m/s], impulse [N s], energy before and after [J].");
+      "before and after [m/s], impulse [N s], energy before and after [J]. With --at, the points "
+      "where the contact of the bars or the string closes and opens.");
   app->add_flag("--collisions", options->impacts, "The former name of --impacts.");
   app->add_flag(
       "--energy", options->energy,

@@ -170,7 +170,7 @@ int run_path(const Options& options, const std::string& line) {
                 results.style());
   results.finish();
   if (study.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
-  return study.interrupted ? 130 : written ? 0 : 4;
+  return study.interrupted ? 130 : written && !study.failed ? 0 : 4;
 }
 
 int run(Options options, const std::string& line) {

@@ -71,7 +71,27 @@ class Points(CommandTest):
                          ["0.5,-,0,-2,0,0,0,2,0,0", "0.5,+,0,2,0,0,4,2,0,0"])
         self.refused("respond", "two-bars", "--at", "-1.5", "--samples", "3", code="out-of-range", says="-1 <= x <= 2")
         self.refused("respond", "stop", "--at", "0", "--samples", "3", code="no-closed-form", says="bar-wall")
-        self.refused("respond", "bar-wall", "--at", "0", "--impacts", code="bad-syntax", says="--at")
+        self.refused("respond", "stop", "--at", "0", "--impacts", code="no-closed-form", says="bar-wall")
+
+    def test_where_the_contact_changes(self):
+        def changes(case, *settings):
+            found = self.rows_of("respond", case, "--at", "0", "--impacts", "--set", ",".join(settings))
+            return [",".join((row["t"], row["side"], row["force"], row["impulse"])) for row in found]
+        self.assertEqual(changes("bouncing-bar", "t_end=21"),  # the second period of 16 s begins with the contact at 19 s
+                         ["3,-,0,0", "3,+,0.375,0", "5,-,0.625,1", "5,+,0,1", "11,-,0,1", "11,+,0.625,1", "13,-,0.375,2",
+                          "13,+,0,2", "19,-,0,2", "19,+,0.375,2", "21,-,0.625,3", "21,+,0,3"])
+        self.assertEqual(changes("bar-between-stops", "t_end=3.5"),
+                         ["0.25,-,0,0", "0.25,+,1,0", "2.25,-,1,2", "2.25,+,0,2", "3,-,0,2", "3,+,1,2"])
+        self.assertEqual(changes("string-on-obstacle", "place=1/2,t_end=2"),
+                         ["0.5,-,0,0", "0.5,+,0,4", "1.5,-,0,4", "1.5,+,0,8"])
+        self.assertEqual(changes("string-over-point", "t_end=2"), ["0.375,-,0,0", "0.375,+,4,0", "1,-,4,2.5", "1,+,0,2.5",
+                                                                   "1.75,-,0,2.5", "1.75,+,4,2.5"])
+        for name in ("two-bars", "mass-on-bar"):
+            self.assertEqual(len(changes(name, "t_end=5")), 4, name)
+        self.assertEqual(changes("bar-wall", "t_end=2.25")[-2:], ["2.25,-,1,2", "2.25,+,0,2"])
+        self.assertEqual(changes("bar-wall", "t_end=0.1"), [])
+        self.assertIn("no contact", self.good("respond", "bar-wall", "--at", "0", "--impacts", "--set", "t_end=0.1"))
+        self.assertIn("--at 0 --impacts", self.good("respond", "bar-wall", "--impacts"))
 
 
 class Times(CommandTest):

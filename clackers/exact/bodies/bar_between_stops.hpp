@@ -38,6 +38,7 @@ class BarBetweenStops final : public BarMotion {
   Bounded period() const { return Bounded(2.0) * half_; }
 
  private:
+  Changes changes() const override { return {{begins(), ends()}, half_}; }
   // Since a stop was touched, and how many contacts there had been before; the first is at the left one.
   struct Phase {
     Bounded s;

@@ -72,6 +72,12 @@ std::vector<BarContact::Event> BarContact::events() const {
   return list;
 }
 
+BarContact::Changes BarContact::changes() const {
+  Changes found{{}, period()};
+  for (const auto& event : events()) found.first.push_back(event.t);
+  return found;
+}
+
 // The velocity and c u_x are linear between fronts, so two points of Gauss give their squares exactly.
 BarContact::Energy BarContact::energy(double time) const {
   Wide kinetic, elastic, potential;

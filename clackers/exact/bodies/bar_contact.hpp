@@ -81,6 +81,7 @@ class BarContact final : public BarMotion {
   std::vector<Event> events() const;
 
  private:
+  Changes changes() const override;
   class Waves;
   BarsParameters p_;
   std::unique_ptr<const Waves> waves_;

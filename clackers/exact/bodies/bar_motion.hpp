@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "clackers/model/motion.hpp"
@@ -36,6 +37,29 @@ class BarMotion {
   virtual Bounded impulse(double t, model::Side side) const = 0;
   /// Of all bars or the string, and of a mass that strikes one.
   virtual Energy energy(double t) const = 0;
+
+  /// When the contact closes and opens, in turn, up to the end: the nearest doubles of the first `most` [s].
+  std::vector<double> contact_changes(std::size_t most) const {
+    const auto [first, period] = changes();
+    std::vector<double> times;
+    for (double k = 0.0; !first.empty(); ++k) {
+      for (const auto& change : first) {
+        const double t = (change + Bounded(k) * period).nearest();
+        if (t > end() || times.size() == most) return times;
+        if (times.empty() || t > times.back()) times.push_back(t);
+      }
+      if (period.value == 0) break;
+    }
+    return times;
+  }
+
+ protected:
+  /// The first of them, ascending, and the time after which they come again; 0 where they do not.
+  struct Changes {
+    std::vector<Bounded> first;
+    Bounded period;
+  };
+  virtual Changes changes() const = 0;
 };
 
 }  // namespace clackers::exact

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 
 namespace clackers::exact {
@@ -89,8 +90,9 @@ auto BarContact::Waves::folded(double t) const -> Folded {
 }
 
 void BarContact::Waves::build(std::string_view who) {
-  const WideReal last =
-      period_.value > 0 ? std::min<WideReal>(p_.end, 2 * period_.value) : WideReal(p_.end);
+  // A change at the end itself is one of the run.
+  const WideReal end = WideReal(p_.end) * (1 + epsilon),
+                 last = period_.value > 0 ? std::min<WideReal>(end, 2 * period_.value) : end;
   const std::size_t bars = waves_.size(), right = bars - 1;
   std::array<Wide, 2> share{1.0, 1.0};  // of the rate that each end takes when they meet
   compliance_ = waves_[0].z;

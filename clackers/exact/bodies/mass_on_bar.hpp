@@ -47,6 +47,7 @@ class MassOnBar final : public BarMotion {
   Bounded rebound() const { return numerics::narrowed(last_speed_); }
 
  private:
+  Changes changes() const override { return {{begins(), ends()}, {}}; }
   using WideReal = numerics::WideReal;
   // exp(-kappa s) times a polynomial in s/tau, s the time from `origin` on, until the next piece.
   struct Piece {

@@ -46,6 +46,7 @@ class StringOnObstacle final : public BarMotion {
   Bounded impulse_of_touch() const { return numerics::narrowed(impulse_); }
 
  private:
+  Changes changes() const override { return {{begins(), ends()}, transit()}; }
   using Wide = numerics::Wide;
   using WideReal = numerics::WideReal;
   // A time in tau, and what no one who asks in doubles can tell.

@@ -46,6 +46,7 @@ class StringOverPoint final : public BarMotion {
   Bounded period() const { return numerics::narrowed(period_ * tau_); }
 
  private:
+  Changes changes() const override { return {{begins(), ends()}, period()}; }
   using Wide = numerics::Wide;
   using WideReal = numerics::WideReal;
   // Since the last period began, and how many there had been before.

@@ -40,19 +40,22 @@ class ImpactRows : public record::NumberRows {
  public:
   explicit ImpactRows(const cases::Case& test_case)
       : motion_(*test_case.motion),
-        name_(test_case.entry->name),
+        name_((test_case.bars ? "the mesh of " : "") + test_case.entry->name),
         total_(motion_.impact_count(motion_.end())),
         columns_(impact_columns(test_case)),
         names_contact_(test_case.problem.contacts.size() > 1),
-        has_one_place_(has_one_place(test_case)) {}
+        has_one_place_(has_one_place(test_case)),
+        has_bars_(test_case.bars != nullptr) {}
 
   std::string schema() const override { return "clackers/impacts/1"; }
   std::string title() const override {
     const auto note = names_contact_ ? impact_contacts_note : "";
+    const auto more = has_bars_ ? "; contacts of the continuum: --at 0 --impacts" : "";
     if (accumulates(motion_))
       return fmt::format("Impacts of {}: infinitely many; those that are resolved{}", name_, note);
-    if (total_ > 0) return fmt::format("Impacts of {}{}", name_, note);
-    return fmt::format("Impacts of {}: none until the end of its run, {} s", name_, motion_.end());
+    if (total_ > 0) return fmt::format("Impacts of {}{}{}", name_, note, more);
+    return fmt::format("Impacts of {}: none until the end of its run, {} s{}", name_, motion_.end(),
+                       more);
   }
   const std::vector<record::Column>& columns() const override { return columns_; }
 
@@ -80,7 +83,7 @@ class ImpactRows : public record::NumberRows {
   std::string name_;
   long long total_, done_ = 0;
   std::vector<record::Column> columns_;
-  bool names_contact_, has_one_place_;
+  bool names_contact_, has_one_place_, has_bars_;
 };
 
 }  // namespace

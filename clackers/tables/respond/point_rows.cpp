@@ -22,6 +22,17 @@ std::vector<std::string_view> cases_with_elements() {
   return names;
 }
 
+const exact::BarMotion& bars_of(const cases::Case& test_case) {
+  if (!test_case.bars)
+    throw InputError(
+        fmt::format(
+            "respond: points are those of a bar or a string; {} has masses. Leave --at out, "
+            "or take a case with them: {}.",
+            test_case.entry->name, fmt::join(cases_with_elements(), ", ")),
+        "no-closed-form");
+  return *test_case.bars;
+}
+
 struct Place {
   std::size_t bar = 0;
   double x = 0.0;  // from the contact end
@@ -72,7 +83,8 @@ class PointRows : public record::NumberRows {
 
   std::string schema() const override { return "clackers/points/1"; }
   std::string title() const override {
-    return "Points of the " + std::string(bars_.is_string() ? "string of " : "bars of ") + name_;
+    return fmt::format("Points of the {} of {}{}", bars_.is_string() ? "string" : "bars", name_,
+                       grid_.size() == 0 ? ": no contact until the end of its run" : "");
   }
   const std::vector<record::Column>& columns() const override { return columns_; }
   long long count() const override {
@@ -129,19 +141,19 @@ class PointRows : public record::NumberRows {
 
 }  // namespace
 
+TimeGrid contact_grid(const cases::Case& test_case) {
+  TimeGrid grid;
+  grid.times = bars_of(test_case).contact_changes(most_times + 1);
+  return grid;
+}
+
 std::unique_ptr<record::RowSource> points(const cases::Case& test_case, const TimeGrid& grid,
                                           const std::vector<double>& places) {
-  if (!test_case.bars)
-    throw InputError(
-        fmt::format(
-            "respond: points are those of a bar or a string; {} has masses. Leave --at out, "
-            "or take a case with them: {}.",
-            test_case.entry->name, fmt::join(cases_with_elements(), ", ")),
-        "no-closed-form");
+  const auto& bars = bars_of(test_case);
   if (grid.size() > most_times)
     refuse("respond", "times", double(grid.size()), "at most 1e6 with --at", {}, "too-many-rows");
   require_inside(test_case, grid);
-  return std::make_unique<PointRows>(*test_case.bars, test_case.entry->name, grid, places);
+  return std::make_unique<PointRows>(bars, test_case.entry->name, grid, places);
 }
 
 }  // namespace clackers::tables
