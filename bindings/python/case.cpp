@@ -8,6 +8,7 @@
 #include "bindings/python/bind.hpp"
 #include "bindings/python/problem.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/tables/respond.hpp"
 
 namespace clackers::python {
 namespace {
@@ -55,6 +56,8 @@ void bind_case(py::module_& core) {
       .def_property_readonly("indicators", [](const Case& c) { return values(c.indicators); })
       .def_property_readonly("dof", [](const Case& c) { return c.motion->dof(); })
       .def_property_readonly("end", [](const Case& c) { return c.motion->end(); })
+      .def_property_readonly("accumulates",
+                             [](const Case& c) { return tables::accumulates(*c.motion); })
       .def_property_readonly("problem", [](const std::shared_ptr<Case>& c) {
         return Problem({c, &c->problem});  // keeps the case alive
       });

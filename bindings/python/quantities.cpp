@@ -26,8 +26,18 @@ py::tuple energies(const Case& test_case, py::handle t) {
 py::tuple points(const Case& test_case, py::handle t, py::handle at) {
   const auto list = read_vector("points", "at", at);
   const auto places = values_of(list);
-  return read_rows(
-      *tables::points(test_case, read_grid("points", t), {places.begin(), places.end()}));
+  const auto grid = t.is_none() ? tables::contact_grid(test_case) : read_grid("points", t);
+  return read_rows(*tables::points(test_case, grid, {places.begin(), places.end()}));
+}
+
+py::tuple forces(const Case& test_case, py::handle t) {
+  return read_rows(*tables::forces(test_case, read_grid("forces", t)));
+}
+
+py::tuple digits(const Case& test_case, py::handle digits, py::handle t) {
+  const auto count = read_whole("digits", "digits", digits);
+  if (t.is_none()) return read_rows(*tables::impacts(test_case, count));
+  return read_rows(*tables::respond(test_case, read_grid("digits", t), count));
 }
 
 py::tuple sensitivity(const Case& test_case, py::handle name, py::handle t) {
@@ -46,6 +56,8 @@ py::tuple spectrum(const Case& test_case, py::handle n, py::handle highest) {
 void bind_quantities(py::module_& core) {
   core.def("energies", &energies, py::arg("case"), py::arg("t"));
   core.def("points", &points, py::arg("case"), py::arg("t"), py::arg("at"));
+  core.def("forces", &forces, py::arg("case"), py::arg("t"));
+  core.def("digits", &digits, py::arg("case"), py::arg("digits"), py::arg("t"));
   core.def("sensitivity", &sensitivity, py::arg("case"), py::arg("name"), py::arg("t"));
   core.def("spectrum", &spectrum, py::arg("case"), py::arg("n"), py::arg("highest"));
 }

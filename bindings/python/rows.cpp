@@ -73,6 +73,14 @@ bool holds_only(const std::vector<Cell>& cells) {
 
 py::object array_of(const std::vector<Cell>& cells, ColumnKind kind) {
   py::list objects;
+  const auto numpy_array = py::module_::import("numpy").attr("array");
+  if (kind == ColumnKind::side) {
+    for (const auto& cell : cells) {
+      const auto* side = std::get_if<std::string>(&cell);
+      objects.append(side == nullptr ? 0 : *side == "+" ? 1 : -1);
+    }
+    return numpy_array(objects, py::arg("dtype") = "int8");
+  }
   const bool numbers =
       kind == ColumnKind::real || holds_only<double, long long, std::monostate>(cells);
   for (const auto& cell : cells)
@@ -81,7 +89,7 @@ py::object array_of(const std::vector<Cell>& cells, ColumnKind kind) {
                        : object_of(cell));
   const bool whole = kind != ColumnKind::real && holds_only<long long>(cells);
   const char* type = whole ? "int64" : numbers ? "float64" : "object";
-  return py::module_::import("numpy").attr("array")(objects, py::arg("dtype") = type);
+  return numpy_array(objects, py::arg("dtype") = type);
 }
 
 py::list read_cells(record::RowSource& rows) {

@@ -1,5 +1,7 @@
 """Tables: quantities over time and frequency, the catalogue, and how tables show themselves."""
 import collections.abc
+import os
+import subprocess
 import sys
 import unittest
 from unittest import mock
@@ -29,6 +31,30 @@ class Quantities(unittest.TestCase):
     def test_points_are_those_of_the_command(self):
         t = np.linspace(0.0, 6.0, 25)
         self.check(clackers.case("two-bars").points(t, [-0.5, 0.0, 2.0]), "respond", "two-bars", "--samples", "25", "--at=-0.5,0,2")
+
+        changes = clackers.case("bouncing-bar").points(None, 0.0)
+        self.check(changes, "respond", "bouncing-bar", "--impacts", "--at", "0")
+
+    def test_forces_are_those_of_the_command(self):
+        case = clackers.case("belt")
+        self.check(case.forces(np.linspace(0.0, case.end, 41)), "respond", "belt", "--samples", "41", "--forces")
+        self.assertTrue(clackers.case("ball").accumulates)
+        self.assertFalse(case.accumulates)
+
+    def test_digits_are_those_of_the_command(self):
+        case = clackers.case("synchronized-pair", eta=0.5)
+        text = subprocess.run([os.environ["CLACKERS"], "respond", "synchronized-pair", "--set", "eta=0.5", "--digits", "40", "--impacts", "--format", "csv"],
+                              check=True, capture_output=True, text=True).stdout
+        impacts = case.digits(40)
+        self.assertEqual([",".join(map(str, row)) for row in impacts.rows], text.splitlines()[1:])
+        self.assertEqual(impacts["k"].dtype, np.int64)
+        t = case.impacts().t[0]
+        state = case.digits(40, [0.0, t])
+        np.testing.assert_array_equal(state["side"], [0, -1, 1])
+        v = case.response([t], side="left").v
+        np.testing.assert_array_equal([float(state["v1"][1]), float(state["v2"][1])], v[0])
+        with self.assertRaisesRegex(clackers.InputError, "1 <= digits <= 1000"):
+            case.digits(1001)
 
     def test_sensitivity_is_that_of_the_command(self):
         case = clackers.case("three-parameter")

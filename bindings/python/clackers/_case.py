@@ -135,6 +135,11 @@ class Case:
         return self._core.end
 
     @property
+    def accumulates(self) -> bool:
+        """Whether infinitely many impacts come before a contact rests; ``impact_count`` is that of the resolved ones."""
+        return self._core.accumulates
+
+    @property
     def problem(self) -> Problem:
         """The task that a solver gets."""
         return self._problem
@@ -360,13 +365,69 @@ class Case:
         """
         return Table(*_core.energies(self._core, t))
 
-    def points(self, t: npt.ArrayLike, at: npt.ArrayLike) -> Table:
-        """Points of the case's bars or string at times ``t``: the continuum, of which ``problem`` is a mesh.
+    def forces(self, t: npt.ArrayLike) -> Table:
+        """Forces of contacts that stay closed, of one-sided springs and of dry friction at times ``t``.
 
         Parameters
         ----------
         t : array_like
             Times [s], each in [0, end], in any order; a number is one time.
+
+        Returns
+        -------
+        Table
+            Columns t, side, force1 and so on, 0 for open contacts, then friction1 and so on [N]. Two rows at impacts as
+            in ``energies``.
+
+        Raises
+        ------
+        InputError
+            As ``response`` does, and for a case without any of them.
+
+        Examples
+        --------
+        >>> import clackers
+        >>> clackers.case("pressed-oscillator").forces(20.0)["force1"]
+        array([0.5])
+        """
+        return Table(*_core.forces(self._core, t))
+
+    def digits(self, digits: int, t: npt.ArrayLike | None = None) -> Table:
+        """The response at times ``t``, or without them the impacts, correctly rounded to ``digits`` digits.
+
+        Parameters
+        ----------
+        digits : int
+            Significant digits, 1 to 1000.
+        t : array_like, optional
+            Times [s], each in [0, end], as they stand in doubles.
+
+        Returns
+        -------
+        Table
+            Columns t, side, u1 [m], v1 [m/s], a1 [m/s^2] and so on, or those of ``impact_table``, whose t is then the true
+            instant: texts, for ``decimal`` or ``mpmath``.
+
+        Raises
+        ------
+        InputError
+            For a motion without an enclosure, and where the module was built without Arb.
+
+        Examples
+        --------
+        >>> import clackers
+        >>> str(clackers.case("stop").digits(30, t=1.0)["u1"][0])
+        '0.514952215250232861108811314440'
+        """
+        return Table(*_core.digits(self._core, digits, t))
+
+    def points(self, t: npt.ArrayLike | None, at: npt.ArrayLike) -> Table:
+        """Points of the case's bars or string at times ``t``: the continuum, of which ``problem`` is a mesh.
+
+        Parameters
+        ----------
+        t : array_like or None
+            Times [s], each in [0, end], in any order; a number is one time. None: those where the contact closes and opens.
         at : array_like
             Places x [m], 0 at the contact (``string-on-obstacle``: at its left end); negative in the left one of two bars.
 

@@ -23,7 +23,8 @@ class DigitRows : public record::RowSource {
         columns_(rows_->columns()),
         title_(fmt::format("{} to {} digits", rows_->title(), digits)),
         about_(about) {
-    for (auto& column : columns_) column.kind = record::ColumnKind::any;
+    for (auto& column : columns_)
+      if (column.kind == record::ColumnKind::real) column.kind = record::ColumnKind::any;
   }
 
   std::string title() const override { return title_; }

@@ -26,8 +26,8 @@ const exact::BarMotion& bars_of(const cases::Case& test_case) {
   if (!test_case.bars)
     throw InputError(
         fmt::format(
-            "respond: points are those of a bar or a string; {} has masses. Leave --at out, "
-            "or take a case with them: {}.",
+            "respond: points are those of a bar or a string; {} has masses. Take a case with "
+            "them: {}.",
             test_case.entry->name, fmt::join(cases_with_elements(), ", ")),
         "no-closed-form");
   return *test_case.bars;
