@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/cases/case.hpp"
@@ -20,9 +22,10 @@ namespace {
 using exact::testing_oracle::Box;
 using exact::testing_oracle::trials;
 using model::Side;
-using Number = long double;
 
+template <class Number>
 struct Simulation {
+  Number least = std::numeric_limits<Number>::epsilon();
   Number m, k, limit, kinetic, belt, t = 0, u, v;
   Number cosine = 0, sine = 0, W = 0;  // the load is `cosine`, -`sine`/W times W is its rate
   int sign = 0;
@@ -37,8 +40,8 @@ struct Simulation {
         v(p.start.v[0]) {
     if (const auto* load = p.system.add_load.target<model::HarmonicLoad>()) {
       const auto& f = load->forces().at(0);
-      cosine = f.amplitude * std::cos(Number(f.phase));
-      sine = f.amplitude * std::sin(Number(f.phase));
+      cosine = f.amplitude * cos(Number(f.phase));
+      sine = f.amplitude * sin(Number(f.phase));
       W = f.frequency;
     }
     decide();
@@ -46,13 +49,13 @@ struct Simulation {
   Number push() const { return cosine - k * u; }
   void decide() {
     const Number held = push();
-    sign = std::abs(held) <= limit * (1 + 1e-17L) ? 0 : held > 0 ? 1 : -1;
+    sign = abs(held) <= limit * (1 + least / 6) ? 0 : held > 0 ? 1 : -1;
   }
   // The state h later, while neither stick nor slip changes.
-  Simulation after(Number h) const {
+  Simulation after(const Number& h) const {
     Simulation next = *this;
     next.t += h;
-    constexpr int terms = 40;
+    constexpr int terms = 40;  // of 0.05/k! at most
     Number un = u, vn = v, cn = cosine, sn = sine, power = 1;
     Number sum_u = 0, sum_v = 0, sum_c = 0, sum_s = 0;
     for (int n = 0; n < terms; ++n) {
@@ -60,8 +63,8 @@ struct Simulation {
       sum_v += vn * power;
       sum_c += cn * power;
       sum_s += sn * power;
-      const Number constant = n == 0 ? -sign * kinetic : 0;
-      const Number a = sign == 0 ? 0 : (cn - k * un + constant) / m;
+      const Number constant = n == 0 ? Number(-sign * kinetic) : Number(0);
+      const Number a = sign == 0 ? Number(0) : Number((cn - k * un + constant) / m);
       const Number u1 = vn / (n + 1), v1 = a / (n + 1), c1 = -W * sn / (n + 1),
                    s1 = W * cn / (n + 1);
       un = u1, vn = v1, cn = c1, sn = s1;
@@ -71,19 +74,19 @@ struct Simulation {
     return next;
   }
   bool goes_on() const {
-    return sign == 0 ? std::abs(push()) <= limit * (1 + 1e-17L) : sign * (v - belt) >= 0;
+    return sign == 0 ? abs(push()) <= limit * (1 + least / 6) : sign * (v - belt) >= 0;
   }
-  void run_to(Number end) {
-    const Number w = std::max(std::sqrt(k / m), W);
+  void run_to(const Number& end) {
+    const Number own = sqrt(k / m), w = W > own ? W : own, longest = Number(0.05) / w;
     while (t < end) {
-      const Number h = std::min(Number(0.05) / w, end - t);
+      const Number left = end - t, h = left < longest ? left : longest;
       auto next = after(h);
-      if (next.goes_on() || h < 1e-19L * (t + 1 / w)) {
+      if (next.goes_on() || h < least * (t + 1 / w)) {
         *this = next;
         continue;
       }
       Number inside = 0, outside = h;
-      for (int i = 0; i < 70; ++i) {
+      for (int i = 0; i < std::numeric_limits<Number>::digits + 6; ++i) {
         const Number middle = (inside + outside) / 2;
         (after(middle).goes_on() ? inside : outside) = middle;
       }
@@ -97,7 +100,7 @@ struct Simulation {
 };
 
 void expect_simulated(Box& box, const Case& test_case) {
-  Simulation simulation(test_case.problem);
+  Simulation<long double> simulation(test_case.problem);
   const auto& motion = *test_case.motion;
   const auto size = motion.envelope(0.0);
   const double end = motion.end();
@@ -180,6 +183,41 @@ TEST(FrictionCases, ForcedSlidersSwingAsTheirTaylorSeries) {
     }
   }
 }
+
+#ifdef CLACKERS_HAS_ARB
+// With 90 digits, from the first of those given: the problem's doubles are rounded starts and phases.
+TEST(FrictionCases, DigitsAreThoseOfTheirTaylorSeries) {
+  using exact::testing_oracle::Real;
+  for (const auto& [name, settings] :
+       {std::pair<const char*, Settings>{"slider", {{"m", 0.7}, {"F", 0.09}}},
+        {"belt", {{"Fd", 0.3}, {"V", 0.4}}},
+        {"forced-slider", {{"k", 1.3}, {"F", 0.2}, {"W", 1.9}}}}) {
+    const auto test_case = make(name, settings);
+    certified::Digits digits(*test_case.motion, 70);
+    const auto start = digits.at(0.0, Side::right);
+    Simulation<Real> simulation(test_case.problem);
+    simulation.u = Real(start.u[0]);
+    simulation.v = Real(start.v[0]);
+    if (simulation.W != 0) {
+      // Friction, against the motion to come, is what load and spring leave of m a.
+      const Real amplitude = hypot(simulation.cosine, simulation.sine), a(start.a[0]);
+      simulation.cosine = simulation.m * a + simulation.k * simulation.u +
+                          (a > 0 ? simulation.kinetic : -simulation.kinetic);
+      const Real sine = sqrt(amplitude * amplitude - simulation.cosine * simulation.cosine);
+      simulation.sine = simulation.sine > 0 ? sine : Real(-sine);
+      simulation.decide();
+    }
+    for (int i = 1; i <= 12; ++i) {
+      const double t = test_case.motion->end() * i / 13.0;
+      simulation.run_to(t);
+      const auto now = digits.at(t, Side::right);
+      EXPECT_LE(abs(Real(Real(now.u[0]) - simulation.u)), Real("1e-60")) << name << " at " << t;
+      EXPECT_LE(abs(Real(Real(now.v[0]) - simulation.v)), Real("1e-60")) << name << " at " << t;
+    }
+  }
+}
+
+#endif
 
 // The disk impact by impact with 90 digits, from its velocities alone.
 struct Throw {

@@ -124,6 +124,11 @@ inline Ball cos(const Ball& a) {
   arb_cos(c.get(), a.get(), WorkingBits::now());
   return c;
 }
+inline Ball atan(const Ball& a) {
+  Ball c;
+  arb_atan(c.get(), a.get(), WorkingBits::now());
+  return c;
+}
 inline Ball power(const Ball& a, unsigned long n) {
   Ball c;
   arb_pow_ui(c.get(), a.get(), n, WorkingBits::now());

@@ -38,7 +38,7 @@ Inputs::Inputs(const model::Motion& motion) {
   if (known == nullptr)
     throw InputError(
         "digits: this motion is known to double precision only; allowed: cases and problem files "
-        "with linear springs and without dry friction between impacts.",
+        "with linear springs, or with friction in closed form.",
         "no-enclosure");
   *this =
       std::visit([](const auto& parameters) { return Inputs(parameters); }, known->parameters());

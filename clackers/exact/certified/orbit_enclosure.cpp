@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "clackers/base/error.hpp"
+#include "clackers/exact/friction/friction_motion.hpp"
 #include "clackers/exact/friction/oblique_disk.hpp"
 
 namespace clackers::certified {
@@ -24,6 +25,13 @@ auto in_balls(const exact::ObliqueDiskParameters& p) {
         "vx0 or w0.",
         "no-enclosure");
   return exact::DiskFormulas<Ball>(p, counts);
+}
+auto in_balls(const exact::SliderParameters& p) {
+  return exact::SliderFormulas<Ball>(p, exact::half_swings(p));
+}
+auto in_balls(const exact::BeltParameters& p) { return exact::BeltFormulas<Ball>(p); }
+auto in_balls(const exact::ForcedSliderParameters& p) {
+  return exact::ForcedSliderFormulas<Ball>(p);
 }
 auto in_balls(const auto& p) { return exact::OrbitFormulas<Ball>(p); }
 

@@ -4,6 +4,7 @@
 
 #include "clackers/exact/certified/enclosure.hpp"
 #include "clackers/exact/friction/disk_formulas.hpp"
+#include "clackers/exact/friction/friction_formulas.hpp"
 #include "clackers/exact/orbit/circle_formulas.hpp"
 #include "clackers/exact/orbit/flights.hpp"
 
@@ -34,7 +35,8 @@ class OrbitEnclosure : public Enclosure {
   KinematicBalls kinematics(const exact::StatesOf<Ball>& states) const;
   using Formulas = std::variant<exact::CradleFormulas<Ball>, exact::OrbitFormulas<Ball>,
                                 exact::CircleFormulas<Ball>, exact::BallFormulas<Ball>,
-                                exact::DiskFormulas<Ball>>;
+                                exact::DiskFormulas<Ball>, exact::SliderFormulas<Ball>,
+                                exact::BeltFormulas<Ball>, exact::ForcedSliderFormulas<Ball>>;
   const Formulas& formulas();
 
   const exact::Flights& motion_;

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <string_view>
+#include <utility>
 
+#include "clackers/exact/friction/friction_formulas.hpp"
 #include "clackers/exact/orbit/flights.hpp"
 
 namespace clackers::exact {
@@ -18,71 +20,68 @@ class FrictionMotion : public Flights {
   Eigen::VectorXd contact_forces(double t, model::Side side) const override;
 
  protected:
-  FrictionMotion(double m, double k, const model::Friction<>& friction, double end);
-  Limits limits(long long k) const override;  // there are no impacts
+  FrictionMotion(const FlightsParameters& parameters, double m, double k,
+                 const model::Friction<>& friction, double end);
 
-  Bounded k_, omega_;
   std::array<double, 3> size_{};  ///< of u, v and a
 };
 
-/// From rest at x0 > F/k: n half swings, each less wide by 2 F/k, then rest. C. A. Coulomb (1785).
-struct SliderParameters {
-  double m = 1.0, k = 1.0, F = 0.1, x0 = 1.0, end = 20.0;
+/// By its formulas.
+template <template <class> class FormulasOf>
+class FrictionMotionBy : public FrictionMotion {
+ protected:
+  template <class Parameters>
+  FrictionMotionBy(const Parameters& p, FormulasOf<Bounded> formulas,
+                   const model::Friction<>& friction)
+      : FrictionMotion(p, p.m, p.k, friction, p.end), formulas_(std::move(formulas)) {}
+
+  Bounded instant(long long k) const override { return formulas_.instant(k); }
+  States state(long long k, const Bounded& s) const override { return formulas_.state(k, s); }
+  Limits limits(long long k) const override { return formulas_.limits(k); }
+
+  FormulasOf<Bounded> formulas_;
 };
-class Slider final : public FrictionMotion {
+
+/// Of a slider that moves, by products that are exact in 256 bits.
+long long half_swings(const SliderParameters& parameters);
+
+/// From rest at x0 > F/k. C. A. Coulomb (1785).
+class Slider final : public FrictionMotionBy<SliderFormulas> {
  public:
   /// Throws InputError unless k x0 > F, and for more than 1e9 half swings.
-  Slider(const SliderParameters& parameters, std::string_view who);
-  double half_swings() const { return double(n_); }
-  Bounded end_of_slip() const { return instant(n_); }
-  Bounded rest() const;
+  Slider(const SliderParameters& p, std::string_view who);
+  double half_swings() const { return double(formulas_.n); }
+  Bounded end_of_slip() const { return instant(formulas_.n); }
+  Bounded rest() const { return formulas_.rest(); }
 
  private:
-  Bounded instant(long long k) const override;
-  States state(long long k, const Bounded& s) const override;
   long long near_flight(double t) const override;
-
-  Bounded x0_, d_, T_;
-  long long n_ = 0;
 };
 
-/// On a belt of velocity V, stick and slip in turn, from the beginning of sticking.
-struct BeltParameters {
-  double m = 1.0, k = 1.0, limit = 1.0, kinetic = 0.5, V = 0.2, end = 40.0;
-};
-class Belt final : public FrictionMotion {
+/// On a belt of velocity V, from the beginning of sticking.
+class Belt final : public FrictionMotionBy<BeltFormulas> {
  public:
   /// Throws InputError unless limit > kinetic.
-  Belt(const BeltParameters& parameters, std::string_view who);
-  Bounded stick() const { return stick_; }
-  Bounded slip() const { return T_ - stick_; }
+  Belt(const BeltParameters& p, std::string_view who);
+  Bounded stick() const { return formulas_.stick; }
+  Bounded slip() const { return formulas_.T - formulas_.stick; }
 
  private:
-  Bounded instant(long long k) const override;
-  States state(long long k, const Bounded& s) const override;
   long long near_flight(double t) const override;
-
-  Bounded V_, D_, d_, stick_, T_;
 };
 
 /// Under P cos(W t + phi) the periodic motion without stops, from a turning point. J. P. den Hartog (1931).
-struct ForcedSliderParameters {
-  double m = 1.0, k = 1.0, F = 0.4, P = 1.0, W = 0.8, end = 40.0;
-};
-class ForcedSlider final : public FrictionMotion {
+class ForcedSlider final : public FrictionMotionBy<ForcedSliderFormulas> {
  public:
   /// Throws InputError where there is no such motion.
-  ForcedSlider(const ForcedSliderParameters& parameters, std::string_view who);
-  double amplitude() const { return x0_.nearest(); }
+  ForcedSlider(const ForcedSliderParameters& p, std::string_view who);
+  double amplitude() const { return formulas_.x0.nearest(); }
   double phase() const { return phi_; }
 
  private:
-  Bounded instant(long long k) const override;
-  States state(long long k, const Bounded& s) const override;
   long long near_flight(double t) const override;
-  void require_sliding(std::string_view who, double F) const;
+  void require_sliding(std::string_view who) const;
 
-  Bounded F_, P_, W_, Vd_, tan_, x0_, cos_phi_, sin_phi_, T_;
   double phi_ = 0.0;
 };
 

@@ -58,9 +58,25 @@ struct ObliqueDiskParameters {
   double mu = 0.1, beta = 0.5;  ///< coefficient of friction; moment of inertia over m R^2
 };
 
+/// A mass on a spring [kg, N/m] that dry friction F [N] brings to rest, from rest at x0 [m].
+struct SliderParameters {
+  double m = 1.0, k = 1.0, F = 0.1, x0 = 1.0, end = 20.0;
+};
+
+/// The same on a belt of velocity V [m/s], with a limit of static friction and kinetic friction [N].
+struct BeltParameters {
+  double m = 1.0, k = 1.0, limit = 1.0, kinetic = 0.5, V = 0.2, end = 40.0;
+};
+
+/// The same under P cos(W t + phi) [N, rad/s].
+struct ForcedSliderParameters {
+  double m = 1.0, k = 1.0, F = 0.4, P = 1.0, W = 0.8, end = 40.0;
+};
+
 using FlightsParameters =
     std::variant<std::monostate, CradleParameters, ForcedPairParameters, BaseExcitedParameters,
-                 CircleBilliardParameters, BallParameters, ObliqueDiskParameters>;
+                 CircleBilliardParameters, BallParameters, ObliqueDiskParameters, SliderParameters,
+                 BeltParameters, ForcedSliderParameters>;
 
 /// Numbers of a type Real that bounds their errors.
 template <class Real>
