@@ -3,11 +3,13 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <optional>
 
 #include "bindings/python/arguments.hpp"
 #include "bindings/python/bind.hpp"
 #include "bindings/python/problem.hpp"
 #include "clackers/cases/case.hpp"
+#include "clackers/model/problem_file.hpp"
 #include "clackers/tables/respond.hpp"
 
 namespace clackers::python {
@@ -56,6 +58,11 @@ void bind_case(py::module_& core) {
       .def_property_readonly("indicators", [](const Case& c) { return values(c.indicators); })
       .def_property_readonly("dof", [](const Case& c) { return c.motion->dof(); })
       .def_property_readonly("end", [](const Case& c) { return c.motion->end(); })
+      .def_property_readonly("mesh",
+                             [](const Case& c) {
+                               return c.mesh ? std::optional(model::mesh_json(*c.mesh))
+                                             : std::nullopt;
+                             })
       .def_property_readonly("accumulates",
                              [](const Case& c) { return tables::accumulates(*c.motion); })
       .def_property_readonly("problem", [](const std::shared_ptr<Case>& c) {

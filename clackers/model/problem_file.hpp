@@ -78,13 +78,20 @@ model::ImpactProblem<> read_problem(const std::string& path);
 /// any other load or nonlinear force.
 std::string problem_json(const model::ImpactProblem<>& problem);
 
-/// A file of that object: {"schema": "clackers/problem/1", "case": name, "problem": {...}}; of a mesh with
+/// The object of a mesh:
 ///
-///     "mesh": {"mass": "lumped",
-///              "nodes": [{"body": 1, "x": 0, "dof": 1, "fixed": false}, ...],
-///              "elements": [{"nodes": [1, 2], "stiffness": 1, "density": 1}, ...]}
+///     {"mass": "lumped",
+///      "nodes": [{"body": 1, "x": 0, "dof": 1, "fixed": false}, ...],
+///      "elements": [{"nodes": [1, 2], "stiffness": 1, "density": 1}, ...]}
 ///
 /// where bodies, nodes and degrees of freedom count from 1, and dof is null without one.
+std::string mesh_json(const model::Mesh& mesh);
+
+/// Both as members of an object: "problem": {...}, and of a mesh "mesh": {...}.
+std::string problem_members(const model::ImpactProblem<>& problem,
+                            const std::optional<model::Mesh>& mesh);
+
+/// A file of them: {"schema": "clackers/problem/1", "case": name, "problem": {...}}.
 std::string problem_file_json(std::string_view case_name, const model::ImpactProblem<>& problem,
                               const std::optional<model::Mesh>& mesh = {});
 

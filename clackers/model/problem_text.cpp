@@ -45,20 +45,6 @@ std::string nested(const Eigen::MatrixXd& matrix) {
   return fmt::format("[{}]", fmt::join(lists, ", "));
 }
 
-std::string mesh_json(const Mesh& mesh) {
-  std::vector<std::string> nodes, elements;
-  for (const auto& node : mesh.nodes)
-    nodes.push_back(fmt::format(R"({{"body": {}, "x": {}, "dof": {}, "fixed": {}}})", node.body + 1,
-                                node.x, node.dof ? std::to_string(*node.dof + 1) : "null",
-                                node.is_fixed));
-  for (const auto& e : mesh.elements)
-    elements.push_back(fmt::format(R"({{"nodes": [{}, {}], "stiffness": {}, "density": {}}})",
-                                   e.left + 1, e.right + 1, e.stiffness, e.density));
-  const char* const names[] = {"lumped", "consistent", "massless"};
-  return fmt::format(R"({{"mass": "{}", "nodes": [{}], "elements": [{}]}})", names[int(mesh.mass)],
-                     fmt::join(nodes, ", "), fmt::join(elements, ", "));
-}
-
 void add_rows(std::string& text, char name, const Eigen::MatrixXd& matrix) {
   int row = 0;
   for (const auto& values : rows(matrix))
@@ -116,11 +102,28 @@ std::string problem_json(const Problem& problem) {
       list(numbers(problem.start.v)), problem.end);
 }
 
+std::string mesh_json(const Mesh& mesh) {
+  std::vector<std::string> nodes, elements;
+  for (const auto& node : mesh.nodes)
+    nodes.push_back(fmt::format(R"({{"body": {}, "x": {}, "dof": {}, "fixed": {}}})", node.body + 1,
+                                node.x, node.dof ? std::to_string(*node.dof + 1) : "null",
+                                node.is_fixed));
+  for (const auto& e : mesh.elements)
+    elements.push_back(fmt::format(R"({{"nodes": [{}, {}], "stiffness": {}, "density": {}}})",
+                                   e.left + 1, e.right + 1, e.stiffness, e.density));
+  const char* const names[] = {"lumped", "consistent", "massless"};
+  return fmt::format(R"({{"mass": "{}", "nodes": [{}], "elements": [{}]}})", names[int(mesh.mass)],
+                     fmt::join(nodes, ", "), fmt::join(elements, ", "));
+}
+
+std::string problem_members(const Problem& problem, const std::optional<Mesh>& mesh) {
+  return "\"problem\": " + problem_json(problem) + (mesh ? ",\n\"mesh\": " + mesh_json(*mesh) : "");
+}
+
 std::string problem_file_json(std::string_view case_name, const Problem& problem,
                               const std::optional<Mesh>& mesh) {
-  return fmt::format("{{\"schema\": \"clackers/problem/1\", \"case\": {},\n\"problem\": {}{}}}\n",
-                     json_quoted(case_name), problem_json(problem),
-                     mesh ? ",\n\"mesh\": " + mesh_json(*mesh) : "");
+  return fmt::format("{{\"schema\": \"clackers/problem/1\", \"case\": {},\n{}}}\n",
+                     json_quoted(case_name), problem_members(problem, mesh));
 }
 
 std::string problem_file_text(const Problem& problem) {

@@ -96,8 +96,8 @@ void write(record::RowSource& rows, Format format, std::ostream& out, const Styl
 }
 
 void write(std::span<const record::Sheet> sheets, std::string_view schema, Format format,
-           std::ostream& out, const Style& style, std::string_view problem) {
-  if (format == Format::json) return write_json(sheets, schema, problem, out);
+           std::ostream& out, const Style& style, std::string_view members) {
+  if (format == Format::json) return write_json(sheets, schema, members, out);
   const char* between = "";
   for (const auto& sheet : sheets) {
     out << between;

@@ -41,9 +41,9 @@ struct Style {
 void write(record::RowSource& rows, Format format, std::ostream& out, const Style& style = {});
 
 /// Several sheets, one below the other, curves of tables as pictures of characters; json: one object whose "sheets" holds all. `schema` names
-/// it; `problem`, the text of a json object, stands in it as well unless it is empty.
+/// it; `members`, the text of further ones such as "problem": {...}, stands in it as well.
 void write(std::span<const record::Sheet> sheets, std::string_view schema, Format format,
-           std::ostream& out, const Style& style = {}, std::string_view problem = {});
+           std::ostream& out, const Style& style = {}, std::string_view members = {});
 
 /// A record of verify or check, of one case or several: tables with findings and a last line with
 /// the verdict, a csv row for every run, its json, JUnit XML, or LaTeX tables. The formats that

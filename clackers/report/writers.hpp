@@ -51,9 +51,8 @@ void write_json(record::RowSource& rows, std::ostream& out);
 /// or 1. Throws InputError for rows that hold text.
 void write_npy(record::RowSource& rows, std::ostream& out);
 
-/// {"schema", "problem", "sheets": [as above]}; `problem` is the text of a json object, or empty for
-/// none.
+/// {"schema", members, "sheets": [as above]}; `members` is their text, "problem": {...}, or empty.
 void write_json(std::span<const record::Sheet> sheets, std::string_view schema,
-                std::string_view problem, std::ostream& out);
+                std::string_view members, std::ostream& out);
 
 }  // namespace clackers::report

@@ -22,7 +22,7 @@ std::vector<record::Sheet> show_case(std::string_view name, const cases::Setting
                                      double threshold);
 
 /// What `clackers show NAME --format json` has beside it, and the programs of verify --exec read: the
-/// text of the json object `problem` (program/problem_text.hpp).
+/// text of its members `problem` and, of a mesh, `mesh` (model/problem_file.hpp).
 std::string show_problem(std::string_view name, const cases::Settings& settings);
 
 /// What `clackers show NAME` shows of a method: its claim, parameters and card. The card is a

@@ -141,6 +141,9 @@ class Good(ExecTest):
         seen = json.loads(self.text_of("seen"))
         self.assertEqual(seen["problem"], shown["problem"])
         self.assertEqual(seen["case"], "stop")
+        self.assertNotIn("mesh", shown)
+        mesh = json.loads(run("show", "bar-wall", "--set", "elements=2", "--format", "json").stdout)["mesh"]
+        self.assertEqual([node["dof"] for node in mesh["nodes"]], [None, 1, 2])
         lines = dict(line.split("=") for line in self.text_of("text").splitlines())
         self.assertEqual([[float(lines["M1"])]], seen["problem"]["M"])
         self.assertEqual(float(lines["end"]), seen["problem"]["end"])

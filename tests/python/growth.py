@@ -69,6 +69,7 @@ CALLS = {
     "Case.impacts": lambda: CASE.impacts(1, 5), "Case.impact_table": CASE.impact_table, "Case.collisions": CASE.collisions,
     "Case.energies": lambda: CASE.energies(T), "Case.points": lambda: BARS.points(T[:2], [0.0, 0.5]), "Case.sensitivity": lambda: PAIR.sensitivity("k2", T),
     "Case.forces": lambda: CASE.forces(T), "Case.digits": lambda: CASE.digits(30, T[:2]), "Case.accumulates": lambda: CASE.accumulates,
+    "Case.mesh": lambda: BARS.mesh,
     "Case.spectrum": lambda: CASE.spectrum(10, 5.0), "Case.tables": CASE.tables,
     "Case.indicators": lambda: clackers.case("stop").indicators, "Case.constants": lambda: CASE.constants,
     "Problem.load": lambda: CASE.problem.load(0.5), "Problem.rhs": lambda: CASE.problem.rhs(0.5, Y),

@@ -76,6 +76,11 @@ class Problem(unittest.TestCase):
         # The error of a step at this tolerance; the state carries some hundred of them.
         self.assertAlmostEqual(run.t[-1], case.impacts(last=1).t[0], delta=1e-9)
 
+    def test_mesh_is_that_of_programs(self):
+        mesh = clackers.case("mass-on-bar", elements=2, mass="lumped").mesh
+        self.assertEqual((mesh["mass"], [node["fixed"] for node in mesh["nodes"]]), ("lumped", [False, False, True]))
+        self.assertIsNone(clackers.case("stop").mesh)
+
     def test_simulation_from_impact_to_impact_meets_the_exact_motion(self):
         case = clackers.case("synchronized-pair", X=5, r=2, eta=0.8)
         problem = case.problem

@@ -3,10 +3,11 @@ from __future__ import annotations
 
 import functools
 import inspect
+import json
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, fields
-from typing import Literal, NamedTuple, overload
+from typing import Any, Literal, NamedTuple, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -143,6 +144,13 @@ class Case:
     def problem(self) -> Problem:
         """The task that a solver gets."""
         return self._problem
+
+    @property
+    def mesh(self) -> dict[str, Any] | None:
+        """Of bars and strings the mesh that ``problem`` is made of, as programs get it: mass ("lumped", "consistent" or
+        "massless"), nodes (body, x [m], dof or None, fixed) and elements (nodes, stiffness E A [N], density rho A [kg/m]),
+        counted from 1."""
+        return None if self._core.mesh is None else json.loads(self._core.mesh)
 
     @overload
     def response(

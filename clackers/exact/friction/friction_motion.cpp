@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "clackers/base/error.hpp"
 #include "clackers/model/harmonic_load.hpp"

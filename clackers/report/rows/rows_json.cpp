@@ -64,9 +64,9 @@ void write_json(record::RowSource& rows, std::ostream& out) {
 }
 
 void write_json(std::span<const record::Sheet> sheets, std::string_view schema,
-                std::string_view problem, std::ostream& out) {
+                std::string_view members, std::ostream& out) {
   out << "{\n\"schema\": " << json_quoted(schema);
-  if (!problem.empty()) out << ",\n\"problem\": " << problem;
+  if (!members.empty()) out << ",\n" << members;
   out << ",\n\"sheets\": [";
   const char* comma = "\n";
   for (const auto& sheet : sheets) {

@@ -243,7 +243,8 @@ std::vector<record::Sheet> show_case(std::string_view name, const cases::Setting
 }
 
 std::string show_problem(std::string_view name, const cases::Settings& settings) {
-  return problem_json(cases::make(name, settings).problem);
+  const auto test_case = cases::make(name, settings);
+  return problem_members(test_case.problem, test_case.mesh);
 }
 
 std::vector<record::Sheet> show_method(std::string_view specification) {
