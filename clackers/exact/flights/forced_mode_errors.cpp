@@ -116,13 +116,45 @@ Vector ForcedModes::defect(const Vector& whole) const {
   return made;
 }
 
+Vector ForcedModes::Force::sizes(double t) const {
+  Vector sizes = steady.cwiseAbs();
+  for (const auto& [j, beat, y, rate] : resonances) {
+    sizes[j] += y.bound(beat.most(t));
+    sizes[sizes.size() / 2 + j] += rate.bound(beat.most(t));
+  }
+  return sizes;
+}
+
+Vector ForcedModes::steady_sizes(int order, double t) const {
+  Vector most = Vector::Zero(mass_.rows());
+  for (const auto& force : forces_) {
+    Matrix parts(2 * dof(), 2);
+    parts << force.steady.real(), force.steady.imag();
+    most += std::pow(force.frequency, order) * derived_states(0, parts).rowwise().norm();
+    for (const auto& resonance : force.resonances) {
+      Vector alone = Vector::Zero(2 * dof());
+      alone[resonance.mode] = resonance.y.bound(resonance.beat.most(t));
+      most += std::pow(force.frequency, order) * derived_states(0, alone).cwiseAbs();
+    }
+  }
+  return most;
+}
+
 double ForcedModes::fourth_bound(const Observable& seen, const Vector& free, double horizon) const {
   double most = bound(seen.by_state.col(4), sizes(free, horizon));
   for (std::size_t j = 0; j < push_.size(); ++j)
     most += std::abs(seen.by_state(Index(j), 3) * push_[j].y) +
             std::abs(seen.by_state(dof() + Index(j), 3) * push_[j].rate);
-  for (std::size_t i = 0; i < forces_.size(); ++i)
+  for (std::size_t i = 0; i < forces_.size(); ++i) {
     most += std::pow(forces_[i].frequency, 4) * std::abs(seen.response[i]);
+    for (const auto& [j, beat, y, rate] : forces_[i].resonances) {
+      auto there = y, moves = rate;
+      for (int order = 0; order < 4; ++order)
+        there = there.derivative(beat), moves = moves.derivative(beat);
+      most += std::abs(seen.by_state(j, 0)) * there.bound(beat.most(horizon)) +
+              std::abs(seen.by_state(dof() + j, 0)) * moves.bound(beat.most(horizon));
+    }
+  }
   return most;
 }
 
@@ -130,7 +162,7 @@ double ForcedModes::rounding(const Observable& seen, const Sizes& size, double t
   double whole = seen.constant_size + bound(seen.size, size);
   for (std::size_t i = 0; i < forces_.size(); ++i)
     whole += (1.0 + forces_[i].frequency * t) *
-             (seen.direct_size[i] + seen.size.dot(forces_[i].steady.cwiseAbs()));
+             (seen.direct_size[i] + seen.size.dot(forces_[i].sizes(t)));
   return epsilon * double(mass_.rows() + 4) * whole;
 }
 
@@ -179,9 +211,10 @@ Vector ForcedModes::local_errors(const Vector& z, double t, double s) const {
   Vector whole(2 * n), error = Vector::Zero(2 * n), growth = Vector::Zero(2 * n);
   whole << size.y, size.rate;
   for (const auto& force : forces_) {
-    const Vector response = force.steady.cwiseAbs();
+    const Vector response = force.sizes(t + s);
     whole += response;
-    error += epsilon * (16.0 + 2.0 * force.frequency * (t + s)) * response;
+    const double units = force.resonances.empty() ? 2.0 : 8.0;
+    error += epsilon * (16.0 + units * force.frequency * (t + s)) * response;
     growth += force.defect_per_time;
   }
   growth += defect(whole);

@@ -93,11 +93,10 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
       if (all == loads.end()) all = loads.insert(all, {f, Eigen::VectorXcd::Zero(n)});
       all->second[f.dof] += std::polar(f.amplitude, f.phase);
     }
-    for (const auto& [f, applied] : loads)
-      add_force(applied, f.frequency, accelerations, who, f.dof);
+    for (const auto& [f, applied] : loads) add_force(applied, f.frequency, accelerations);
   }
   if (!offset.isZero(0.0)) {
-    add_force((-(stiffness_ * offset)).cast<Complex>(), 0.0, accelerations, who, 0);
+    add_force((-(stiffness_ * offset)).cast<Complex>(), 0.0, accelerations);
     forces_.back().applied.setZero();  // the structure's own
   }
   find_residuals();
@@ -105,8 +104,7 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
 
 // z' = A z + g e^(i w t) mode by mode.
 void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
-                            const Accelerations& accelerations, std::string_view who,
-                            int dof_of_load) {
+                            const Accelerations& accelerations) {
   const Index n = dof();
   const auto apart = [](const auto& function, const Eigen::VectorXcd& x) {
     Eigen::VectorXcd y = function(Vector(x.imag())).template cast<Complex>() * Complex(0.0, 1.0);
@@ -122,7 +120,8 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
   force.steady = Eigen::VectorXcd::Zero(2 * n);
   for (Index j = 0; j < n; ++j) {
     const auto& mode = system_.modes()[std::size_t(j)];
-    const Complex dynamic((mode.omega - frequency) * (mode.omega + frequency),
+    const double unstable = mode.omega_square < 0.0 ? 2.0 * mode.omega_square : 0.0;
+    const Complex dynamic((mode.omega - frequency) * (mode.omega + frequency) + unstable,
                           2.0 * mode.sigma * frequency);
     const Complex load_of_mode = g[n + j] + (2.0 * mode.sigma + turn) * g[j];
     if (load_of_mode == 0.0 && g[j] == 0.0) continue;
@@ -133,13 +132,13 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
       push_[std::size_t(j)].rate += g[n + j].real();
       continue;
     }
-    if (!(std::abs(dynamic) > 1e-8 * size))
-      throw InputError(
-          fmt::format("{}: a load on degree of freedom {} has {:.6g} rad/s, the frequency of an "
-                      "undamped mode; allowed: 1e-8 of it away. The response would grow without a "
-                      "bound; change the frequency, or add damping.",
-                      who, dof_of_load + 1, frequency),
-          "out-of-range");
+    if (std::abs(dynamic) < 1e-6 * size) {
+      const numerics::Beat beat(mode, frequency);
+      const numerics::BeatForm y{beat.scale * load_of_mode, 0.0};
+      force.resonances.push_back({j, beat, y, y.derivative(beat)});
+      force.steady[n + j] = -g[j];
+      continue;
+    }
     force.steady[j] = load_of_mode / dynamic;
     force.steady[n + j] = turn * force.steady[j] - g[j];
   }
@@ -221,8 +220,14 @@ Vector ForcedModes::impulse(const Vector& direction) const {
 
 Vector ForcedModes::steady(double t) const {
   Vector z = Vector::Zero(2 * dof());
-  for (const auto& force : forces_)
+  for (const auto& force : forces_) {
     z += (force.steady * std::polar(1.0, force.frequency * t)).real();
+    for (const auto& [j, beat, y, rate] : force.resonances) {
+      const auto now = beat.at(t);
+      z[j] += y.value(now);
+      z[dof() + j] += rate.value(now);
+    }
+  }
   return z;
 }
 
@@ -290,8 +295,13 @@ void ForcedModes::look_ahead(numerics::FormAhead& to, const Observable& seen,
                              std::span<const numerics::ModalState> free, double t,
                              double sign) const {
   to.begin(system_, seen.form, free, sign, push_);
-  for (std::size_t i = 0; i < forces_.size(); ++i)
+  for (std::size_t i = 0; i < forces_.size(); ++i) {
     to.add(seen.response[i] * std::polar(1.0, forces_[i].frequency * t), forces_[i].frequency);
+    for (const auto& [j, beat, y, rate] : forces_[i].resonances) {
+      const double on_y = seen.by_state(j, 0), on_rate = seen.by_state(dof() + j, 0);
+      to.add(beat, {on_y * y.e + on_rate * rate.e, on_y * y.r + on_rate * rate.r}, t);
+    }
+  }
 }
 
 numerics::LocalBound ForcedModes::now(const Observable& seen, const Vector& free, double t) const {

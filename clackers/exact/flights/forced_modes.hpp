@@ -31,8 +31,7 @@ class ForcedModes {
   using Sparse = Eigen::SparseMatrix<double>;
 
   /// Throws InputError, `who` first, for a load that is no HarmonicLoad, a nonlinear force, modes of
-  /// which the motion is no sum, and a force in resonance with an undamped mode. Bounds hold where
-  /// stiffness and damping have no negative eigenvalue.
+  /// which the motion is no sum. Bounds hold where stiffness and damping have no negative eigenvalue.
   ForcedModes(const model::ImpactProblem<>& problem, std::string_view who)
       : ForcedModes(problem, who, Matrix::Identity(problem.dof(), problem.dof()),
                     Vector::Zero(problem.dof())) {}
@@ -42,11 +41,20 @@ class ForcedModes {
   ForcedModes(const model::ImpactProblem<>& problem, std::string_view who, const Matrix& basis,
               const Vector& offset, const Matrix& stiffness_rest = {});
 
+  /// The response of a mode to a force at or near its frequency.
+  struct Resonance {
+    Eigen::Index mode = 0;
+    numerics::Beat beat;
+    numerics::BeatForm y, rate;
+  };
   struct Force {
     double frequency = 0.0;                 ///< [rad/s]
     Eigen::VectorXcd applied;               ///< f e^(i phase) [N]
     Eigen::VectorXcd acceleration, steady;  ///< what it does to a, and the response z
     Eigen::VectorXd defect_per_time;  ///< what the response leaves of the equations, as a rate of z
+    std::vector<Resonance> resonances;  ///< of modes whose `steady` is only what is left
+    /// Bounds on |z| of the response up to t.
+    Vector sizes(double t) const;
   };
   /// A linear function of u, v, a and the loads, such as a gap or the force of a constraint:
   /// constant + by_state.col(0) . z + the real parts of response e^(i frequency t), of the free state z.
@@ -108,8 +116,10 @@ class ForcedModes {
   Vector displacement_of_mode(Eigen::Index j, const ForcedModes& other) const {
     return other.row(0, system_.coordinates().row(j).transpose());
   }
-  /// z of the steady response.
+  /// z of the steady response; of resonances one that is 0 at t = 0.
   Vector steady(double t) const;
+  /// Bounds up to t on the derivatives of u of that order in it.
+  Vector steady_sizes(int order, double t) const;
   /// z of the motion without the steady response s seconds later; `push` 0 without constant forces on
   /// modes that have no stiffness.
   Vector advanced(const Vector& z, double s, double push = 1.0) const;
@@ -129,7 +139,7 @@ class ForcedModes {
   /// The accelerations that forces on the structure give it.
   using Accelerations = std::function<Matrix(const Matrix&)>;
   void add_force(const Eigen::VectorXcd& applied, double frequency,
-                 const Accelerations& accelerations, std::string_view who, int dof);
+                 const Accelerations& accelerations);
   void find_residuals();
   /// Of direction . u^(order) as a row times z; of the sizes of what is added up.
   Vector row(int order, const Vector& direction) const;

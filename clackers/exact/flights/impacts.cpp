@@ -68,7 +68,7 @@ void PiecewiseMotion::Builder::happen(const std::vector<Closing>& closings) {
 double PiecewiseMotion::Builder::deviation(const State& state, const VectorXd& row) const {
   double size = row.cwiseAbs().dot(state.z.cwiseAbs());
   for (const auto& force : m_.regimes_[state.regime].forces())
-    size += (1.0 + force.frequency * state.t) * row.cwiseAbs().dot(force.steady.cwiseAbs());
+    size += (1.0 + force.frequency * state.t) * row.cwiseAbs().dot(force.sizes(state.t));
   const double rounding = epsilon * double(m_.dof() + 4) * size;
   if (!m_.has_bounds_) return rounding;
   return state.errors.bounds(m_.regimes_[state.regime], row.transpose())[0] + rounding;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -176,6 +177,35 @@ TEST(PiecewiseMotion, NearItsLimitsIsTheSimulationOrRefusedWithItsReason) {
   RecordProperty("accepted", tally.accepted);
   RecordProperty("values", tally.values);
   RecordProperty("worst", std::to_string(tally.worst));
+}
+
+// A load with the frequency of a mode, or that of another structure near to it.
+TEST(PiecewiseMotion, AtResonanceIsTheSimulationWithinItsBound) {
+  Box box(33);
+  Counts tally;
+  int members = 0;
+  for (int trial = 0; members < trials(12) && trial < 100 * trials(12); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 33, trial " << trial);
+    auto problem = random_system(box);
+    auto& s = problem.system;
+    const auto n = problem.dof();
+    s.damping.setZero();
+    if (box.one_in(3)) s.damping = box.decades(-12.0, -6.0) * s.stiffness;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(s.stiffness, s.mass);
+    const auto mode = Eigen::Index(box.uniform(0.0, double(n)));
+    const double apart = box.one_in(3) ? 0.0 : box.decades(-17.0, -5.0);
+    s.add_load = model::HarmonicLoad(
+        {{0, box.uniform(-0.5, 0.5), std::sqrt(modes.eigenvalues()[mode]) * (1.0 + apart), 1.0}});
+    if (test::refusal_of([&] { PiecewiseMotion{problem}; }) != "accepted") continue;
+    ++members;
+    const PiecewiseMotion motion(problem);
+    follow(motion, TaylorSimulator(problem), tally);
+    const double t = motion.end();
+    EXPECT_LT(motion.error_bound(t).u.maxCoeff(), 1e-9 * motion.envelope(t).u.maxCoeff());
+    EXPECT_LE(motion.at(t, Side::left).u.cwiseAbs().maxCoeff(),
+              motion.envelope(t).u.maxCoeff() * (1.0 + 1e-12));
+  }
+  EXPECT_EQ(members, trials(12));
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
     VectorXd whole(2 * modes.dof()), load = VectorXd::Zero(n);
     whole << size.y, size.rate;
     for (const auto& force : modes.forces()) {
-      whole += force.steady.cwiseAbs();
+      whole += force.sizes(t);
       load += (2.0 + force.frequency * t) * force.acceleration.cwiseAbs();
     }
     const auto raise = [&](VectorXd& to, int order, const VectorXd& more) {
@@ -169,12 +169,7 @@ Kinematics PiecewiseMotion::envelope(double t) const {
       for (Index i = 0; i < rows.rows(); ++i)
         most[first + i] += modes.bound(rows.row(i).transpose(), size);
     });
-    for (const auto& force : modes.forces()) {
-      MatrixXd parts(2 * modes.dof(), 2);
-      parts << force.steady.real(), force.steady.imag();
-      most += std::pow(force.frequency, order) * modes.derived_states(0, parts).rowwise().norm();
-    }
-    return most;
+    return VectorXd(most + modes.steady_sizes(order, t));
   };
   return {of(0), of(1), of(2)};
 }

@@ -495,12 +495,6 @@ TEST(PiecewiseMotion, MotionsThatItDoesNotHaveAreRefused) {
                    p.system.damping << 1.2, 0.8, 0.8, 2.4;
                  })),
                  "out-of-range", "that the damping couples", "sums of modes");
-  EXPECT_REFUSED(refused(with([](P& p) {
-                   p.system.damping.setZero();
-                   p.system.add_load =
-                       model::HarmonicLoad({{0, 1.0, std::sqrt(p.system.stiffness(0, 0)), 0.0}});
-                 })),
-                 "out-of-range", "degree of freedom 1", "frequency of an undamped mode");
   EXPECT_REFUSED(refused(with([](P& p) { p.system.add_load = [](double, std::span<double>) {}; })),
                  "linear-only", "harmonic loads");
   EXPECT_REFUSED(refused(with([](P& p) { p.start.t = 1.0; })), "out-of-range", "start = 1");

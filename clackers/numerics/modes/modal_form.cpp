@@ -101,6 +101,7 @@ void FormAhead::begin(const ModalSystem& system, const ModalForm& form,
   std::ranges::fill(constants_, 0.0);
   constants_[0] = sign * form.offset_;
   harmonics_.clear();
+  growing_.clear();
   sign_ = sign;
   growth_ = form.growth_;
   parts_.resize(form.parts_.size());
@@ -146,6 +147,11 @@ void FormAhead::begin(const ModalSystem& system, const ModalForm& form,
   }
 }
 
+void FormAhead::add(const Beat& beat, const BeatForm& form, double t) {
+  auto& to = growing_.emplace_back(Growing{beat, t, {{sign_ * form.e, sign_ * form.r}}});
+  for (int k = 1; k < 4; ++k) to.derivatives[k] = to.derivatives[k - 1].derivative(beat);
+}
+
 LocalBound FormAhead::ahead(double s, double level, bool is_whole) const {
   LocalBound ahead{constants_[0] - level, constants_[1],           constants_[2],
                    constants_[3],         std::abs(constants_[2]), std::abs(constants_[3])};
@@ -160,6 +166,18 @@ LocalBound FormAhead::ahead(double s, double level, bool is_whole) const {
     ahead.third += square * frequency * imaginary;
     ahead.curvature += square * size;
     ahead.third_bound += square * frequency * size;
+  }
+  for (const auto& [beat, t, derivatives] : growing_) {
+    const auto now = beat.at(t + s);
+    // For as long as the beat has lasted, or a radian.
+    const double reach = std::max(t + s, 1.0 / std::abs(beat.mu)), most = beat.most(t + s + reach);
+    ahead.value += derivatives[0].value(now);
+    ahead.slope += derivatives[1].value(now);
+    ahead.second += derivatives[2].value(now);
+    ahead.third += derivatives[3].value(now);
+    ahead.curvature += derivatives[2].bound(most);
+    ahead.third_bound += derivatives[3].bound(most);
+    ahead.reach = std::min(ahead.reach, reach);
   }
   double sigma = 0.0, decay = 1.0;
   for (const Part& part : parts_) {
@@ -205,7 +223,7 @@ LocalBound FormAhead::ahead(double s, double level, bool is_whole) const {
     }
   }
   if (growth_ > 0.0) {
-    ahead.reach = 0.5 / growth_;
+    ahead.reach = std::min(ahead.reach, 0.5 / growth_);
     constexpr double growth = 1.6488;  // more than e^(1/2)
     ahead.curvature *= growth;
     ahead.third_bound *= growth;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "clackers/numerics/first_root.hpp"
+#include "clackers/numerics/modes/beat.hpp"
 #include "clackers/numerics/modes/modal_flight.hpp"
 
 namespace clackers::numerics {
@@ -66,6 +67,9 @@ class FormAhead {
     harmonics_.push_back({sign_ * y, frequency});
   }
 
+  /// And of this form of a beat that began t before the flight.
+  void add(const Beat& beat, const BeatForm& form, double t);
+
   /// What is known of it, less `level`, ahead of s.
   LocalBound operator()(double s, double level = 0.0) const { return ahead(s, level, false); }
   /// Of all modes.
@@ -89,10 +93,16 @@ class FormAhead {
     std::complex<double> y;
     double frequency;
   };
+  struct Growing {
+    Beat beat;
+    double t;
+    BeatForm derivatives[4];
+  };
   LocalBound ahead(double s, double level, bool is_whole) const;
 
   std::vector<Part> parts_;
   std::vector<Harmonic> harmonics_;
+  std::vector<Growing> growing_;
   double constants_[4];  // the offset, and what pushes add to the derivatives
   double sign_ = 1.0, growth_ = 0.0;
 };

@@ -108,6 +108,52 @@ TEST(FormAhead, PushesAndHarmonicsAreWholeDerivativesWithBounds) {
   }
 }
 
+// y'' + 2 sigma y' + omega^2 y = e^(i W t), and what FormAhead says of the real part of y.
+TEST(FormAhead, BeatsSolveTheEquationOfTheirModeAndAreWholeDerivativesWithBounds) {
+  for (const double sigma : {0.0, 1e-9, 0.02})
+    for (const double apart : {0.0, 1e-12, 1e-4, -0.3}) {
+      SCOPED_TRACE(testing::Message() << sigma << " " << apart);
+      const auto [system, start] =
+          flight(Eigen::Matrix<double, 1, 1>(1.0), Eigen::Matrix<double, 1, 1>(2.0 * sigma),
+                 Eigen::Matrix<double, 1, 1>(4.0), Eigen::Matrix<double, 1, 1>(0.0),
+                 Eigen::Matrix<double, 1, 1>(0.0));
+      const auto& mode = system.modes()[0];
+      const double frequency = mode.w * (1.0 + apart);
+      const Beat beat(mode, frequency);
+      const BeatForm y{beat.scale, 0.0}, rate = y.derivative(beat),
+                                         acceleration = rate.derivative(beat);
+      for (const double t : {0.0, 0.3, 4.0, 70.0}) {
+        const auto now = beat.at(t);
+        const auto value = [&](const BeatForm& form) { return form.e * now.e + form.r * now.r; };
+        EXPECT_LT(std::abs(value(acceleration) + 2.0 * sigma * value(rate) +
+                           mode.omega_square * value(y) - std::polar(1.0, frequency * t)),
+                  1e-14 * (1.0 + t));
+        EXPECT_LE(std::abs(now.e), beat.most(t) * (1.0 + 1e-14));
+        EXPECT_LE(std::abs(now.r), 1.0 + 1e-14);
+      }
+      EXPECT_EQ(beat.at(0.0).e, 0.0);
+      const ModalForm form(system, Eigen::Vector2d(0.0, 0.0), 0.5);
+      FormAhead ahead;
+      ahead.begin(system, form, start, -1.0);
+      ahead.add(beat, y, 3.0);
+      for (double s = 0.0; s < 40.0; s += 3.1) {
+        const auto now = ahead.whole(s);
+        EXPECT_NEAR(now.value, -0.5 - (y.e * beat.at(3.0 + s).e).real(), 1e-13);
+        const double h = 1e-3, size = 1e-5 * (5.0 + s);
+        const auto later = ahead.whole(s + h), sooner = s > h ? ahead.whole(s - h) : later;
+        if (s > h) {
+          EXPECT_NEAR(now.slope, (later.value - sooner.value) / (2.0 * h), size);
+          EXPECT_NEAR(now.second, (later.slope - sooner.slope) / (2.0 * h), size);
+          EXPECT_NEAR(now.third, (later.second - sooner.second) / (2.0 * h), size);
+        }
+        for (double x = 0.0; x <= now.reach && x < 50.0; x += 0.1) {
+          EXPECT_LE(std::abs(ahead.whole(s + x).second), now.curvature);
+          EXPECT_LE(std::abs(ahead.whole(s + x).third), now.third_bound);
+        }
+      }
+    }
+}
+
 struct Search {
   FirstRoot root;
   int calls = 0;
