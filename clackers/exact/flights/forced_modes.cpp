@@ -120,8 +120,7 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
   force.steady = Eigen::VectorXcd::Zero(2 * n);
   for (Index j = 0; j < n; ++j) {
     const auto& mode = system_.modes()[std::size_t(j)];
-    const double unstable = mode.omega_square < 0.0 ? 2.0 * mode.omega_square : 0.0;
-    const Complex dynamic((mode.omega - frequency) * (mode.omega + frequency) + unstable,
+    const Complex dynamic((mode.omega - frequency) * (mode.omega + frequency),
                           2.0 * mode.sigma * frequency);
     const Complex load_of_mode = g[n + j] + (2.0 * mode.sigma + turn) * g[j];
     if (load_of_mode == 0.0 && g[j] == 0.0) continue;
