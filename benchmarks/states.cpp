@@ -4,7 +4,6 @@
 //   clackers_benchmark_states [PROGRAM]     PROGRAM: the command clackers, for the rows on writing
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <boost/numeric/odeint/util/copy.hpp>
@@ -21,6 +20,7 @@
 #include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/methods/registry.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 #include "clackers/numerics/testing/forced_target.hpp"
 
 namespace clackers::benchmarks {
@@ -107,7 +107,8 @@ struct ReadingSink : model::Sink {
 void integrate_without_impacts(const model::ImpactProblem<>& problem, double h, long steps) {
   using Array = std::array<double, 4>;
   const auto& s = problem.system;
-  const Eigen::Matrix2d k = s.mass.inverse() * s.stiffness, c = s.mass.inverse() * s.damping;
+  const Eigen::Matrix2d inverse = numerics::inverse(s.mass), stiffness = s.stiffness,
+                        damping = s.damping, k = inverse * stiffness, c = inverse * damping;
   Array x{problem.start.u[0], problem.start.u[1], problem.start.v[0], problem.start.v[1]};
   boost::numeric::odeint::runge_kutta4<Array> stepper;
   const auto rate = [&](const Array& y, Array& d, double) {

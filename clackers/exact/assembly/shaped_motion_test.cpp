@@ -112,9 +112,7 @@ TEST(Buildings, ThreeAgainstTwoStoreysThriceAsFastAgreeWithTheSimulation) {
 }
 
 // The first impact of a simulation that starts within a flight.
-double first_impact(const auto& p) {
-  return MassSimulator(raw_of(p)).next(100)->t.template convert_to<double>();
-}
+double first_impact(const auto& p) { return double(MassSimulator(raw_of(p)).next(100)->t); }
 
 TEST(Buildings, TouchBetweenImpactsBeyondTheLimitOnly) {
   for (const auto& [left, right, X] :

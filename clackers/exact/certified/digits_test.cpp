@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -84,7 +83,7 @@ TEST(Digits, OfAForcedPairObeyItsEquations) {
   const exact::ForcedPairParameters p;
   const exact::ForcedPair pair(p);
   Digits digits(pair, 50);
-  const Real nu = 2 * boost::math::constants::pi<Real>() * p.n / p.T;
+  const Real nu = 2 * exact::testing_oracle::pi() * p.n / p.T;
   const Real speeds[] = {p.V1, -p.V1};
   const double offsets[] = {p.D1, p.D2}, frequencies[] = {p.omega1, p.omega2};
   const auto begin = digits.at(2.5, Side::right), end = digits.at(7.5, Side::left);
@@ -127,7 +126,7 @@ TEST(Digits, OfAPairUnderBaseExcitationObeyItsEquations) {
   Digits digits(pair, 50);
   EXPECT_EQ(digits.at(0.0, Side::right).v[0], "0");
   EXPECT_EQ(digits.at(5.0, Side::right).v[1], "0");
-  const Real nu = 2 * boost::math::constants::pi<Real>() * p.n / p.T;
+  const Real nu = 2 * exact::testing_oracle::pi() * p.n / p.T;
   const auto before = digits.at(3.75, Side::left), after = digits.at(3.75, Side::right);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_LE(abs(real(before.u[i])), least);
@@ -371,7 +370,7 @@ TEST(Digits, OfSpringsThatCloseAndOpen) {
   problem.end = 6.0;
   const PiecewiseMotion motion(problem);
   Digits digits(motion, 50);
-  const Real pi = boost::math::constants::pi<Real>();
+  const Real pi = exact::testing_oracle::pi();
   // Closed from pi/2 to pi/2 + pi/3, then a free half period.
   const auto at = [&](double t) { return Real(digits.at(t, Side::right).u[0]); };
   EXPECT_LE(abs(at(2.0) + sin(3 * (2 - pi / 2)) / 3), Real("1e-49"));

@@ -114,7 +114,7 @@ void follow(const PiecewiseMotion& motion, TaylorSimulator simulator, Counts& ta
     const auto compare = [&](const testing_oracle::RealVector& known, const VectorXd& given,
                              const VectorXd& allowed) {
       for (Eigen::Index j = 0; j < given.size(); ++j) {
-        const double share = abs(Real(known[j] - Real(given[j]))).convert_to<double>() / allowed[j];
+        const double share = double(abs(Real(known[j] - Real(given[j])))) / allowed[j];
         EXPECT_LE(share, 1.0) << "t = " << t;
         tally.worst = std::max(tally.worst, share);
         ++tally.values;
@@ -148,7 +148,7 @@ void check_reason(const std::string& text, const model::ImpactProblem<>& problem
     if (!who[i].matched) continue;
     const auto& contact = problem.contacts[std::size_t(std::stoi(who[i]) - 1)];
     const double gap = contact.direction.dot(simulator.at(until).u.unaryExpr([](const Real& x) {
-      return x.convert_to<double>();
+      return double(x);
     })) - contact.gap;
     EXPECT_LT(std::abs(gap), 1e-6) << text;
   }

@@ -28,7 +28,7 @@ struct Tally {
   void compare(const Real& known, double given, double allowed, double t) {
     ++values;
     if (abs(Real(known - Real(given))) < Real(1e-30)) return;
-    const double share = abs(Real(known - Real(given))).convert_to<double>() / allowed;
+    const double share = double(abs(Real(known - Real(given)))) / allowed;
     EXPECT_LE(share, 1.0) << "t = " << t << ", off by " << share * allowed;
     worst = std::max(worst, share);
   }
@@ -114,7 +114,7 @@ TEST(RestingContacts, ABallAndAPressedOscillatorComeToRestAsTheirFormulasSay) {
                                     << " u " << u << " eta " << eta);
     const PressedMass known(m, k, f, u, eta);
     auto problem = pressed_mass(m, k, f, u, eta);
-    const double rest = known.rest().convert_to<double>();
+    const double rest = double(known.rest());
     problem.end = 1.5 * rest;
     const PiecewiseMotion motion(problem);
     ++tally.members;
@@ -164,7 +164,7 @@ TEST(RestingContacts, ContactsOfMassesThatNothingJoinsAccumulateTogether) {
         m = problem.system.mass(0, 0);
       }
       const PressedMass single(m, m * k, m * g, u, eta);
-      rest = std::max(rest, single.rest().convert_to<double>());
+      rest = std::max(rest, double(single.rest()));
       known.push_back(single);
       problem.system.mass(mass, mass) = m;
       problem.system.stiffness(mass, mass) = m * k;
@@ -189,7 +189,7 @@ TEST(RestingContacts, ContactsOfMassesThatNothingJoinsAccumulateTogether) {
     for (const auto& single : known)
       for (double before = 1e-1; before > 5e-13; before *= 0.1)
         for (const double sign : {-1.0, 1.0})
-          times.push_back(single.rest().convert_to<double>() + sign * before * rest);
+          times.push_back(double(single.rest()) + sign * before * rest);
     for (const double t : times)
       if (t >= 0.0 && t <= problem.end)
         for (Eigen::Index mass = 0; mass < 2; ++mass)
@@ -244,13 +244,13 @@ TEST(RestingContacts, APlasticPairSticksPartsAndLandsWithoutSpeed) {
     problem.start = {0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d(V1, V2)};
     const Real V = (Real(m1) * V1 + Real(m2) * V2) / (Real(m1) + m2), s = sigma, W = w;
     // The pair starts after the plastic impact at t = 0.
-    problem.start.v = Eigen::Vector2d::Constant(V.convert_to<double>());
+    problem.start.v = Eigen::Vector2d::Constant(double(V));
     const Real speed = problem.start.v[0];
     const Real k =
         (Real(m1) * (Real(X) * X * W * W + s * s) + Real(m2) * (W * W + s * s)) / (Real(m1) + m2);
-    const Real wc = sqrt(Real(k - s * s)), pi = boost::math::constants::pi<Real>();
+    const Real wc = sqrt(Real(k - s * s)), pi = testing_oracle::pi();
     const Real stick = pi / wc, period = stick + pi / W;
-    problem.end = 3.4 * period.convert_to<double>();
+    problem.end = 3.4 * double(period);
     ASSERT_EQ(test::refusal_of([&] { PiecewiseMotion{problem}; }), "accepted")
         << "X " << X << " w " << w << " sigma " << sigma << " m " << m1 << " " << m2 << " v "
         << problem.start.v[0] << " period " << period;
@@ -275,16 +275,16 @@ TEST(RestingContacts, APlasticPairSticksPartsAndLandsWithoutSpeed) {
       const Real from = period * Real(int(j));
       EXPECT_TRUE(Real(closed[j].begins.lo) <= from + Real(1e-13) &&
                   from - Real(1e-13) <= Real(closed[j].begins.hi))
-          << closed[j].begins.lo - from.convert_to<double>();
+          << closed[j].begins.lo - double(from);
       if (closed[j].opens) {
         ++tally.releases;
-        EXPECT_NEAR(closed[j].until, Real(from + stick).convert_to<double>(), 1e-12);
+        EXPECT_NEAR(closed[j].until, double(from + stick), 1e-12);
       }
     }
     for (int i = 0; i < 40; ++i) {
       double t = box.uniform(0.0, problem.end);
       if (i % 4 == 0) {
-        const double at = Real(period * Real(1 + i % 3)).convert_to<double>();
+        const double at = double(period * Real(1 + i % 3));
         t = at + (box.one_in(2) ? 1.0 : -1.0) * box.decades(-12.0, -3.0);
       }
       for (const Eigen::Index mass : {0, 1}) compare(motion, t, mass, exact(t, mass), tally);
@@ -437,8 +437,8 @@ TEST(RestingContacts, OfRandomStructuresMoveAsTheTaylorSeriesSays) {
                    system.stiffness.cwiseAbs() * bound.u)
                       .sum();
       for (std::size_t i = 0; i < simulator.held().size(); ++i)
-        EXPECT_NEAR(forces[Eigen::Index(simulator.held()[i])],
-                    held[Eigen::Index(i)].convert_to<double>(), allowed)
+        EXPECT_NEAR(forces[Eigen::Index(simulator.held()[i])], double(held[Eigen::Index(i)]),
+                    allowed)
             << t;
     }
     for (const auto& closed : motion.closed_contacts()) {

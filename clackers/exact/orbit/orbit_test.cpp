@@ -2,7 +2,6 @@
 // dashpots and forces by the formulas of the literature, and knows no orbit.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "clackers/base/testing/refusal.hpp"
@@ -11,6 +10,7 @@
 #include "clackers/exact/testing/impact_simulator.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 namespace clackers::exact {
 namespace {
@@ -56,7 +56,7 @@ void expect_simulated(const model::Motion& motion, const RawPair& pair, long lon
     ASSERT_TRUE(found);
     const Real flight = found->before.t - before.flight_start();
     for (const double part : {0.31, 0.87}) {
-      const double t = Real(before.flight_start() + part * flight).convert_to<double>();
+      const double t = double(before.flight_start() + part * flight);
       if (t >= 0.0) expect_state(motion, before.at(t), t);
     }
     const auto hit = motion.impact(k);
@@ -107,14 +107,14 @@ TEST(Cradle, PerturbationsOfTheRestingMassGrowAsInTheSimulation) {
       simulator.next(cycle);
       simulator.next(cycle);
       const auto x = simulator.at(cycle);
-      return std::array{Real(x.u[1] / small).convert_to<double>(),
-                        Real(x.v[1] / small).convert_to<double>()};
+      return std::array{double(x.u[1] / small), double(x.v[1] / small)};
     };
     const auto u = mapped(small, 0), v = mapped(0, small);
-    Eigen::Matrix2d map;
+    Eigen::MatrixXd map(2, 2);
     map << u[0], v[0], u[1], v[1];
     const double decay = p.xi1 * p.omega1 * T1 + p.xi2 * p.omega2 * T2;
-    return std::sqrt(std::max(1.0, map.eigenvalues().cwiseAbs().maxCoeff() * std::exp(decay)));
+    return std::sqrt(
+        std::max(1.0, numerics::eigenvalues(map).cwiseAbs().maxCoeff() * std::exp(decay)));
   };
   for (const CradleParameters& p :
        {CradleParameters{}, CradleParameters{1.0, 3.0, 0.3, 0.02, 60.0},
@@ -240,7 +240,7 @@ TEST(ForcedPair, IsRefusedWhereTheGapClosesEarly) {
     pair.m2 = m2;
     const auto at_middle = raw(pair);
     ImpactSimulator simulator(at_middle);
-    return simulator.next(Real(20))->before.t.convert_to<double>();
+    return double(simulator.next(Real(20))->before.t);
   };
   EXPECT_NEAR(first_impact(open), 2.5, 1e-12);
   p.m2 = closed * (1.0 + 1e-9);
@@ -264,13 +264,13 @@ TEST(ForcedPair, MultipliersAreThoseOfTheSimulatedReturnMap) {
       const auto x = simulator.at(T);
       return std::array<Real, 4>{x.u[0], x.u[1], x.v[0], x.v[1]};
     };
-    Eigen::Matrix4d map;
+    Eigen::MatrixXd map(4, 4);
     for (int j = 0; j < 4; ++j) {
       const auto plus = mapped(j, small), minus = mapped(j, -small);
       for (std::size_t i = 0; i < 4; ++i)
-        map(Eigen::Index(i), j) = Real((plus[i] - minus[i]) / (2 * small)).convert_to<double>();
+        map(Eigen::Index(i), j) = double((plus[i] - minus[i]) / (2 * small));
     }
-    const Eigen::Vector4cd values = map.eigenvalues();
+    const Eigen::VectorXcd values = numerics::eigenvalues(map);
     for (const auto& multiplier : orbit.floquet_multipliers())
       EXPECT_LT((values.array() - multiplier).abs().minCoeff(), 1e-12);
   }

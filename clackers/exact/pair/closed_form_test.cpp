@@ -29,8 +29,7 @@ void compare(const Real& reference, double value, const Real& envelope, double s
              Check& check) {
   const Real error = abs(reference - Real(value));
   if (envelope > 0 && error > 2 * Real(spacing)) {
-    const double units =
-        Real(ldexp((error - 2 * Real(spacing)) / envelope, 52)).convert_to<double>();
+    const double units = double(ldexp((error - 2 * Real(spacing)) / envelope, 52));
     check.worst = std::max(check.worst, units);
   }
   if (error > Real(bound)) check.bound_holds = false;
@@ -72,10 +71,10 @@ std::vector<double> times(Box& box, const Oracle& oracle, double end) {
   std::vector<double> result{0.0, end, spacing, box.uniform(0.0, end),
                              end * box.decades(-12.0, 0.0)};
   if (!oracle.collides) return result;
-  const double all = oracle.omega.convert_to<double>() * end / 3.2;
+  const double all = double(oracle.omega) * end / 3.2;
   for (const double k :
        {1.0, std::floor(box.uniform(1.0, std::max(2.0, all))), std::floor(box.decades(0.0, 4.0))}) {
-    double t = oracle.instant(k).convert_to<double>();
+    double t = double(oracle.instant(k));
     for (int ulp = 0; ulp < 4; ++ulp) t = std::nextafter(t, 0.0);
     for (int ulp = -4; ulp <= 4; ++ulp, t = std::nextafter(t, INFINITY))
       if (ulp % 2 == 0 || std::abs(ulp) == 1)
@@ -138,7 +137,7 @@ TEST(ClosedForm, IsTrueAtLongTimesOfFastPairs) {
       const auto oracle = oracle_of(p);
       for (int i = 0; i < trials(3); ++i) expect_true(motion, oracle, box.uniform(0.9e9, 1e9));
       for (const double k : {3e8, 318309886.0, 123456789.0}) {
-        const double t = oracle.instant(k).convert_to<double>();
+        const double t = double(oracle.instant(k));
         for (const double near : {std::nextafter(t, 0.0), t, std::nextafter(t, 2e9)})
           if (near <= p.t_end) expect_true(motion, oracle, near);
       }
@@ -224,7 +223,7 @@ TEST(ClosedForm, ImpactsAreTrueAndTheirTimesEnclosed) {
       const Real t = o.instant(double(k));
       EXPECT_EQ(hit.index, k);
       EXPECT_EQ(hit.contact, 0);
-      EXPECT_EQ(hit.t, t.convert_to<double>());
+      EXPECT_EQ(hit.t, double(t));
       EXPECT_TRUE(Real(hit.when.lo) < t && t < Real(hit.when.hi));
       EXPECT_EQ(std::nextafter(hit.when.lo, INFINITY), hit.when.hi);
       EXPECT_TRUE(hit.t == hit.when.lo || hit.t == hit.when.hi);

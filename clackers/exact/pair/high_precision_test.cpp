@@ -40,7 +40,7 @@ TEST(SynchronizedPair, InputsAreTheNearestDoublesOfTheFormulas) {
     ASSERT_EQ(problem.dof(), 2);
     for (int m = 0; m < 2; ++m) {
       const auto& mass = o.mass[m];
-      const auto nearest = [](const Real& x) { return x.convert_to<double>(); };
+      const auto nearest = [](const Real& x) { return double(x); };
       EXPECT_EQ(problem.system.mass(m, m), nearest(mass.mass));
       EXPECT_EQ(problem.system.damping(m, m), nearest(2 * mass.mass * o.sigma));
       EXPECT_EQ(problem.system.stiffness(m, m),

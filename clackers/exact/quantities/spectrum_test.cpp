@@ -47,7 +47,7 @@ struct Transform {
 Transform transform(const Oracle& o, int i, const Real& omega, const Real& end) {
   const auto& m = o.mass[i];
   WideComplex part[3] = {{0, 0}, {0, 0}, {0, 0}};
-  const auto last = o.impacts(end.convert_to<double>());
+  const auto last = o.impacts(double(end));
   for (long long k = 0; k <= last; ++k) {
     const Real from = k == 0 ? Real(0) : o.instant(double(k));
     const Real to = k == last ? end : o.instant(double(k + 1));
@@ -88,7 +88,7 @@ TEST(Spectrum, IsTheTransformOfEveryFlightOfRandomPairs) {
                                     << " X " << p.X << " eta " << p.eta << " end " << p.t_end);
     const SynchronizedPair motion(p);
     const auto oracle = oracle_of(p);
-    const double slow = oracle.omega.convert_to<double>(), odd = p.X < 1.0 ? 1.0 / p.X : p.X;
+    const double slow = double(oracle.omega), odd = p.X < 1.0 ? 1.0 / p.X : p.X;
     // Resonances to the last bit, multiples of 2 Omega where all flights add up, and others.
     for (const double w : {1.0, odd, 2.0, std::round(odd) + 1.0, 4.0, 0.3, 1.7, 30.0, 1e3})
       expect_transform(motion, oracle, w * slow);
@@ -105,7 +105,7 @@ TEST(Spectrum, IsRightBesideEveryResonanceOfALongRun) {
       const PairParameters p{.k1 = 1.7, .xi1 = xi1, .X = 3.0, .r = 2.0, .eta = eta, .t_end = 60.0};
       const SynchronizedPair motion(p);
       const auto oracle = oracle_of(p);
-      const double slow = oracle.omega.convert_to<double>();
+      const double slow = double(oracle.omega);
       for (const double w : {1.0, 2.0, 3.0, 8.0})
         for (const double off : {0.0, 1e-15, 1e-12, -1e-8, 1e-5, 1e-3})
           expect_transform(motion, oracle, w * slow * (1.0 + off));

@@ -106,7 +106,7 @@ inline RawSystem raw_of(const AssemblyParameters& p) {
 }
 
 inline double distance(const Real& expected, double value) {
-  return abs(Real(value) - expected).convert_to<double>();
+  return double(abs(Real(value) - expected));
 }
 
 inline void expect_state(const MassSimulator::State& expected, const model::Kinematics& value,
@@ -133,7 +133,7 @@ inline long long expect_simulated(const RawSystem& system, const model::Motion& 
   for (const double t : times) {
     while (const auto hit = simulator.next(t)) {
       const RealVector u = simulator.at(hit->t).u;
-      const auto bound = motion.error_bound(hit->t.convert_to<double>());
+      const auto bound = motion.error_bound(double(hit->t));
       for (std::size_t c = 0; c < hit->contacts.size(); ++c) {
         const auto impact = motion.impact(++count);
         EXPECT_EQ(impact.contact, hit->contacts[c]);

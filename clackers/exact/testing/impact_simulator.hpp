@@ -1,20 +1,16 @@
 #pragma once
 
 #include <array>
-#include <boost/multiprecision/mpfr.hpp>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <vector>
+
+#include "clackers/exact/testing/real.hpp"
 
 // For tests: two damped oscillators that collide, simulated from one impact to the next with 90
 // digits. It knows masses, springs, dashpots and a start, and nothing of synchrony, admissibility
 // or any closed form.
 namespace clackers::exact::testing_oracle {
-
-using Real = boost::multiprecision::number<
-    boost::multiprecision::mpfr_float_backend<90, boost::multiprecision::allocate_stack>,
-    boost::multiprecision::et_off>;
 
 /// The force amplitude cos(frequency t + phase) on one mass.
 struct RawForce {
@@ -46,66 +42,24 @@ struct RawPairImpact {
 /// and the steady response to its force, by undetermined coefficients.
 class FreeMass90 {
  public:
-  FreeMass90(const Real& m, const Real& c, const Real& k, const RawForce& force = {})
-      : m_(m), c_(c), k_(k), sigma_(c / (2 * m)), force_(force) {
-    const Real square = k / m - sigma_ * sigma_;
-    if (!(square > 0)) throw std::domain_error("simulator: c^2 < 4 m k is needed");
-    w_ = sqrt(square);
-    // u = x cos(nu t + phase) + y sin(nu t + phase): the coefficients of M a + C v + K u.
-    const Real nu = force.frequency, d = k - m * nu * nu, f = c * nu;
-    if (force.amplitude == 0) return;
-    steady_cos_ = force.amplitude * d / (d * d + f * f);
-    steady_sin_ = force.amplitude * f / (d * d + f * f);
-  }
-  void start(const Real& t, const Real& u, const Real& v) {
-    t_ = t;
-    p_ = u - steady(t, 0);
-    q_ = (v - steady(t, 1) + sigma_ * p_) / w_;
-    amplitude_ = sqrt(p_ * p_ + q_ * q_);
-  }
+  FreeMass90(const Real& m, const Real& c, const Real& k, const RawForce& force = {});
+  void start(const Real& t, const Real& u, const Real& v);
   /// State `s` seconds after start(), into the arrays' entry i.
-  void put(const Real& s, RawState& to, std::size_t i) const {
-    const Real e = exp(-sigma_ * s), phase = w_ * s;
-    Real sine, cosine;
-    mpfr_sin_cos(sine.backend().data(), cosine.backend().data(), phase.backend().data(), MPFR_RNDN);
-    const Real x = e * (p_ * cosine + q_ * sine), y = e * (q_ * cosine - p_ * sine);
-    to.u[i] = x;
-    to.v[i] = w_ * y - sigma_ * x;
-    to.a[i] = -(c_ * to.v[i] + k_ * to.u[i]) / m_;
-    if (force_.amplitude == 0) return;
-    to.u[i] += steady(t_ + s, 0);
-    to.v[i] += steady(t_ + s, 1);
-    to.a[i] = (force_.amplitude * cos(force_.frequency * (t_ + s) + force_.phase) - c_ * to.v[i] -
-               k_ * to.u[i]) /
-              m_;
-  }
+  void put(const Real& s, RawState& to, std::size_t i) const;
   bool is_forced() const { return force_.amplitude != 0; }
   /// Of the steady response: |u''| is at most this.
-  Real steady_curvature() const {
-    return sqrt(steady_cos_ * steady_cos_ + steady_sin_ * steady_sin_) * force_.frequency *
-           force_.frequency;
-  }
+  Real steady_curvature() const;
   const Real& mass() const { return m_; }
   const Real& sigma() const { return sigma_; }
   /// sqrt(p^2 + q^2): |u| <= amplitude e^(-sigma s).
   const Real& amplitude() const { return amplitude_; }
   /// The factor by which each derivative of e^(shift s) u may grow: |-(sigma - shift) + i w|.
-  Real rate(const Real& shift) const {
-    const Real rest = sigma_ - shift;
-    return sqrt(rest * rest + w_ * w_);
-  }
-  Real energy(const RawState& x, std::size_t i) const {
-    return (m_ * x.v[i] * x.v[i] + k_ * x.u[i] * x.u[i]) / 2;
-  }
+  Real rate(const Real& shift) const;
+  Real energy(const RawState& x, std::size_t i) const;
 
  private:
   // The steady response or its rate.
-  Real steady(const Real& t, int derivative) const {
-    if (force_.amplitude == 0) return 0;
-    const Real x = force_.frequency * t + force_.phase;
-    return derivative == 0 ? steady_cos_ * cos(x) + steady_sin_ * sin(x)
-                           : force_.frequency * (steady_sin_ * cos(x) - steady_cos_ * sin(x));
-  }
+  Real steady(const Real& t, int derivative) const;
 
   Real m_, c_, k_, sigma_, w_, p_ = 0, q_ = 0, amplitude_ = 0;
   RawForce force_;
@@ -119,99 +73,25 @@ class FreeMass90 {
 /// crossing these steps are Newton's, from the safe side, and converge as fast. No sampling.
 class ImpactSimulator {
  public:
-  explicit ImpactSimulator(const RawPair& p)
-      : masses_{FreeMass90(p.m1, p.c1, p.k1, p.force1), FreeMass90(p.m2, p.c2, p.k2, p.force2)},
-        eta_(p.eta),
-        gap_(p.gap) {
-    // Nearly critical masses decay to e^(-1e9) between impacts.
-    mpfr_set_emin(mpfr_get_emin_min());
-    mpfr_set_emax(mpfr_get_emax_max());
-    fly_from({Real(0), {p.u10, p.u20}, {p.v10, p.v20}, {}});
-    // Allowed to start touching, as after an impact.
-    if (gap(start_) < -tiny()) throw std::domain_error("simulator: the masses overlap at t = 0");
-  }
+  explicit ImpactSimulator(const RawPair& p);
 
   /// The state at t, within the present flight: t >= flight_start(), and no contact before t.
-  RawState at(const Real& t) const {
-    RawState x;
-    x.t = t;
-    const Real s = t - start_.t;
-    for (std::size_t i = 0; i < 2; ++i) masses_[i].put(s, x, i);
-    return x;
-  }
+  RawState at(const Real& t) const;
   const Real& flight_start() const { return start_.t; }
   Real energy(const RawState& x) const { return masses_[0].energy(x, 0) + masses_[1].energy(x, 1); }
 
   /// Goes through the next contact if it is not later than `until`; otherwise stays where it is and
   /// returns nothing. Throws std::domain_error for a graze, where the gap comes within 1e-70 of
   /// the amplitudes and nothing proves a crossing, and for what follows an impact with eta = 0.
-  std::optional<RawPairImpact> next(const Real& until) {
-    if (eta_ == 0 && hits_ > 0) throw std::domain_error("simulator: the masses may stick");
-    const auto t = first_contact(until);
-    if (!t) return std::nullopt;
-    RawPairImpact hit;
-    hit.before = hit.after = at(*t);
-    hit.energy_before = energy(hit.before);
-    // Newton's law, u1' - u2' -> -eta (u1' - u2'), and conserved momentum.
-    const Real closing = hit.before.v[0] - hit.before.v[1];
-    const Real &m1 = masses_[0].mass(), &m2 = masses_[1].mass();
-    hit.impulse = -(1 + eta_) * closing * m1 * m2 / (m1 + m2);
-    hit.after.v[0] += hit.impulse / m1;
-    hit.after.v[1] -= hit.impulse / m2;
-    ++hits_;
-    fly_from(hit.after);
-    hit.after = at(*t);  // with its acceleration
-    hit.energy_after = energy(hit.after);
-    return hit;
-  }
+  std::optional<RawPairImpact> next(const Real& until);
 
  private:
-  void fly_from(const RawState& x) {
-    start_ = x;
-    for (std::size_t i = 0; i < 2; ++i) masses_[i].start(x.t, x.u[i], x.v[i]);
-    // With a gap or a force G'' has a part that does not decay, so nothing is factored out.
-    shift_ = gap_ == 0 && !masses_[0].is_forced() && !masses_[1].is_forced()
-                 ? std::min(masses_[0].sigma(), masses_[1].sigma())
-                 : Real(0);
-    bound_ = 0;
-    for (const auto& mass : masses_) {
-      const Real rate = mass.rate(shift_);
-      bound_ += mass.amplitude() * rate * rate + mass.steady_curvature();
-    }
-  }
+  void fly_from(const RawState& x);
   Real gap(const RawState& x) const { return x.u[0] - x.u[1] + gap_; }
   // What rounding may do to a gap: amplitudes times 2^-300, and 20 decades more.
-  Real tiny() const {
-    static const Real tolerance("1e-70");
-    return (masses_[0].amplitude() + masses_[1].amplitude() + abs(gap_)) * tolerance;
-  }
+  Real tiny() const;
 
-  std::optional<Real> first_contact(const Real& until) const {
-    // Where a flight starts touching with the gap growing, the first step is over 0 by its slope alone.
-    Real s = 0, value = gap(start_), slope = start_.v[0] - start_.v[1] + shift_ * value;
-    const bool touching = value < tiny();
-    if (touching) value = 0;
-    const Real span = until - start_.t;
-    for (int steps = 0;; ++steps) {
-      if (steps > 1000000 || !isfinite(value)) throw std::domain_error("simulator: undecided");
-      if ((steps > 0 || (touching && slope <= 0)) && value < tiny()) {
-        // G + G' x + M x^2 / 2 < 0 for some x proves that the masses meet at all.
-        if (!(slope < 0 && slope * slope > 4 * bound_ * tiny()))
-          throw std::domain_error("simulator: the masses graze");
-        // One plain Newton step over what is left, too small to be proven and to matter.
-        s += value / -slope;
-        return s <= span ? std::optional<Real>(start_.t + s) : std::nullopt;
-      }
-      const Real root = sqrt(slope * slope + 2 * bound_ * value);
-      // Both forms of the parabola's zero; neither subtracts.
-      s += slope > 0 ? (slope + root) / bound_ : 2 * value / (root - slope);
-      if (s > span) return std::nullopt;
-      const RawState x = at(start_.t + s);
-      const Real scale = shift_ == 0 ? Real(1) : exp(shift_ * s), g = gap(x);
-      value = scale * g;
-      slope = scale * (x.v[0] - x.v[1] + shift_ * g);
-    }
-  }
+  std::optional<Real> first_contact(const Real& until) const;
 
   std::array<FreeMass90, 2> masses_;
   Real eta_, gap_, shift_, bound_;
@@ -220,15 +100,6 @@ class ImpactSimulator {
 };
 
 /// The states at `times` (rising; at an impact the state after it).
-inline std::vector<RawState> simulate(const RawPair& pair, std::span<const Real> times) {
-  ImpactSimulator simulator(pair);
-  std::vector<RawState> states;
-  for (const auto& t : times) {
-    while (simulator.next(t)) {
-    }
-    states.push_back(simulator.at(t));
-  }
-  return states;
-}
+std::vector<RawState> simulate(const RawPair& pair, std::span<const Real> times);
 
 }  // namespace clackers::exact::testing_oracle

@@ -113,7 +113,7 @@ TEST(ImpactSimulator, FindsTheContactThatAWalkInTinyStepsFinds) {
     ASSERT_EQ(hit.has_value(), walked < end);
     if (!hit) continue;
     ++contacts;
-    const double t = hit->before.t.convert_to<double>();
+    const double t = double(hit->before.t);
     EXPECT_LE(t, walked + 1e-12);
     // Where the walk came close before, the contact may be an earlier dip that it did not see.
     if (lowest > 1e-6) {

@@ -113,7 +113,7 @@ void expect_simulated(const ClosedForm& motion, const RawPair& pair, long long i
     ASSERT_TRUE(found);
     const Real flight = found->before.t - before.flight_start();
     for (const double part : {0.31, 0.87}) {
-      const double t = Real(before.flight_start() + part * flight).convert_to<double>();
+      const double t = double(before.flight_start() + part * flight);
       expect_state(motion, before.at(t), t);
     }
     const auto hit = motion.impact(k);
@@ -223,7 +223,7 @@ TEST(Simulation, ContactHappensWhereARefusedMassRatioSaysItWould) {
       const auto at = message.find(words);
       ASSERT_NE(at, std::string::npos) << message;
       // Six digits are printed.
-      const double reference = value.convert_to<double>();
+      const double reference = double(value);
       EXPECT_NEAR(std::stod(message.substr(at + words.size())), reference,
                   1e-5 * std::abs(reference))
           << message;

@@ -46,8 +46,8 @@ TEST(SufficientConditions, MomentaNeedNotBeEqualAndOpposite) {
   for (std::size_t k = 0; k < hits.size(); ++k) {
     const auto &v = hits[k].before.v, &w = hits[k].after.v;
     // 0.1 kg m/s after the start; each half period turns the momentum about.
-    EXPECT_NEAR((3 * v[0] + v[1]).convert_to<double>(), k % 2 == 0 ? -0.1 : 0.1, 1e-15);
-    EXPECT_NEAR((w[1] / w[0]).convert_to<double>(), k % 2 == 0 ? -59.0 / 19.0 : -2.9, 1e-14);
+    EXPECT_NEAR(double(3 * v[0] + v[1]), k % 2 == 0 ? -0.1 : 0.1, 1e-15);
+    EXPECT_NEAR(double(w[1] / w[0]), k % 2 == 0 ? -59.0 / 19.0 : -2.9, 1e-14);
   }
 }
 
@@ -85,7 +85,7 @@ TEST(SufficientConditions, RatesOfDecayNeedNotBeEqual) {
   const Real after_all = pow(lambda, 12);
   EXPECT_LE(abs(hits.back().after.v[0] - after_all), Real("1e-60"));
   EXPECT_LE(abs(hits.back().after.v[1] - v2 * after_all), Real("1e-60"));
-  EXPECT_NEAR(v2.convert_to<double>(), -2.90793, 1e-5);  // not -3
+  EXPECT_NEAR(double(v2), -2.90793, 1e-5);  // not -3
 }
 
 }  // namespace

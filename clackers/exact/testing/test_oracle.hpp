@@ -1,21 +1,15 @@
 #pragma once
 
-#include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <random>
 
 #include "clackers/exact/pair/closed_form.hpp"
+#include "clackers/exact/testing/real.hpp"
 
 // For tests: the closed form by MPFR with 90 digits (300 bits), written as the paper writes it (Eq.
 // (22) with its sign function), with nothing taken from the code under test but its parameters.
 namespace clackers::exact::testing_oracle {
-
-using Real = boost::multiprecision::number<
-    boost::multiprecision::mpfr_float_backend<90, boost::multiprecision::allocate_stack>,
-    boost::multiprecision::et_off>;
-
-inline Real pi() { return 2 * asin(Real(1)); }
 
 struct OracleMass {
   Real mass, start, frequency;  ///< frequency: damped
@@ -36,14 +30,14 @@ struct Oracle {
   Real instant(double k) const { return (2 * Real(k) - 1) * pi() / (2 * omega); }
   long long impacts(double t) const {
     if (!collides) return 0;
-    return static_cast<long long>(Real(floor(omega * t / pi() + Real(0.5))).convert_to<double>());
+    return static_cast<long long>(double(floor(omega * t / pi() + Real(0.5))));
   }
   /// The flight that `side` means at t.
   long long flight(double t, model::Side side) const {
     if (!collides) return 0;
     const auto k = impacts(t);
     for (const auto hit : {k, k + 1})
-      if (hit >= 1 && instant(double(hit)).convert_to<double>() == t)
+      if (hit >= 1 && double(instant(double(hit))) == t)
         return side == model::Side::left ? hit - 1 : hit;
     return k;
   }

@@ -50,6 +50,9 @@ MotionEquation<Dof>::MotionEquation(const model::SmoothSystem<Dof>& system)
 }
 
 template <int Dof>
+MotionEquation<Dof>::~MotionEquation() = default;
+
+template <int Dof>
 void MotionEquation<Dof>::rebuild() {
   mass_.compute(s_.mass);
   mass_matrix_ = s_.mass;

@@ -65,6 +65,7 @@ class MotionEquation {
 
   /// The system must outlive the equation.
   explicit MotionEquation(const model::SmoothSystem<Dof>& system);
+  ~MotionEquation();  // compiled once, and not in every stepper
 
   /// Takes in changed matrices.
   void rebuild();

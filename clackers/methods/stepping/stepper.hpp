@@ -10,6 +10,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/methods/integrator.hpp"
 #include "clackers/methods/stepping/motion_equation.hpp"
+#include "clackers/methods/stepping/step_change.hpp"
 #include "clackers/methods/stepping/step_plan.hpp"
 
 namespace clackers::methods {
@@ -182,54 +183,33 @@ class Stepper final : public AnyStepper<Dof> {
     if (size > StepPowers::most_unknowns || plan_.whole < static_cast<long long>(4 * steps * size))
       return;
     unknowns_.resize(size);
-    powers_.assign(n, made, added(size));
+    powers_.assign(n, made, added(part_.u.size()));
   }
 
-  // What a step adds to u and v, and what it makes of all for a; see StepPowers. Steps from unit vectors
-  // lose it beside the 1 of their own, so they are made from 0, with what the unit vector does as a load:
-  // u + e_j moves under -K e_j as u, and v + e_j, u + t e_j under -(C + t K) e_j.
-  Eigen::MatrixXd added(std::size_t size) {
-    const auto n = Eigen::Index(part_.u.size()), all = Eigen::Index(size);
+  // What a step adds to u and v, and what it makes of all for a; see StepPowers.
+  Eigen::MatrixXd added(Eigen::Index dof) {
     const auto tally = equation_.tally();
-    const auto from = [&](MotionEquation<Dof>& equation, auto&& vector) {
-      std::copy_n(vector.data(), size, unknowns_.begin());
-      unpack(part_, part_memory_);
-      part_.t = 0.0;
-      integrator_.advance(equation, plan_.h, part_, part_memory_);
-      pack(part_, part_memory_);
-      return Eigen::Map<const Eigen::VectorXd>(unknowns_.data(), all);
+    const auto step = [&](MotionEquation<Dof>& equation) {
+      return UnknownsStep{unknowns_, dof, plan_.h, [this, &equation] {
+                            unpack(part_, part_memory_);
+                            part_.t = 0.0;
+                            integrator_.advance(equation, plan_.h, part_, part_memory_);
+                            pack(part_, part_memory_);
+                          }};
     };
-    Eigen::MatrixXd step(all, all);
-    for (Eigen::Index j = 0; j < all; ++j)
-      step.col(j) = from(equation_, Eigen::VectorXd(Eigen::VectorXd::Unit(all, j)));
-    evaluations_ = (equation_.tally().evaluations - tally.evaluations) / all;
+    Eigen::MatrixXd change = step_change(step(equation_));
+    evaluations_ = (equation_.tally().evaluations - tally.evaluations) / change.rows();
     equation_.set_tally(tally);
-    step.diagonal().head(2 * n).array() -= 1.0;
     if constexpr (requires { integrator_.change(equation_, plan_.h); }) {
-      step = integrator_.change(equation_, plan_.h);
+      change = integrator_.change(equation_, plan_.h);
     } else {
-      auto system = equation_.system();
-      Eigen::Index j = 0;
-      system.add_load = [&](double t, std::span<double> force) {
-        Eigen::Map<Eigen::VectorXd> f(force.data(), n);
-        if (j < n)
-          f -= system.stiffness.col(j);
-        else
-          f -= system.damping.col(j - n) + t * system.stiffness.col(j - n);
-      };
-      MotionEquation<Dof> moved(system);
-      integrator_.prepare(moved, plan_.h);
-      for (; j < 2 * n; ++j) {
-        Eigen::VectorXd column = from(moved, Eigen::VectorXd(Eigen::VectorXd::Zero(all)));
-        if (j >= n) column[j - n] += plan_.h;
-        // A method that has another rule for loads than for forces keeps its steps.
-        constexpr double rounding = 1e-13;
-        const auto size_of = step.col(j).cwiseAbs().array() + 1.0;
-        if (((column - step.col(j)).cwiseAbs().array() <= rounding * size_of).all())
-          step.col(j) = column;
-      }
+      Eigen::Index column = 0;
+      const auto system = with_column_as_load(equation_.system(), column);
+      MotionEquation<Dof> loaded(system);
+      integrator_.prepare(loaded, plan_.h);
+      improve_step_change(step(loaded), column, change);
     }
-    return step;
+    return change;
   }
 
   void step(long long k, State& now, Memory& memory) {
