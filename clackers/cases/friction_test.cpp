@@ -200,10 +200,11 @@ TEST(FrictionCases, DigitsAreThoseOfTheirTaylorSeries) {
     simulation.v = Real(start.v[0]);
     if (simulation.W != 0) {
       // Friction, against the motion to come, is what load and spring leave of m a.
-      const Real amplitude = hypot(simulation.cosine, simulation.sine), a(start.a[0]);
+      const Real a(start.a[0]),
+          square = simulation.cosine * simulation.cosine + simulation.sine * simulation.sine;
       simulation.cosine = simulation.m * a + simulation.k * simulation.u +
                           (a > 0 ? simulation.kinetic : -simulation.kinetic);
-      const Real sine = sqrt(amplitude * amplitude - simulation.cosine * simulation.cosine);
+      const Real sine = sqrt(square - simulation.cosine * simulation.cosine);
       simulation.sine = simulation.sine > 0 ? sine : Real(-sine);
       simulation.decide();
     }
