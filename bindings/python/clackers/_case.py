@@ -150,7 +150,8 @@ class Case:
         """Of bars and strings the mesh that ``problem`` is made of, as programs get it: mass ("lumped", "consistent" or
         "massless"), nodes (body, x [m], dof or None, fixed) and elements (nodes, stiffness E A [N], density rho A [kg/m]),
         counted from 1."""
-        return None if self._core.mesh is None else json.loads(self._core.mesh)
+        text = self._core.mesh
+        return None if text is None else json.loads(text)
 
     @overload
     def response(

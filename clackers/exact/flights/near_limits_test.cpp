@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -10,6 +9,7 @@
 #include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/exact/testing/taylor_simulator.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
+#include "clackers/numerics/linear_algebra.hpp"
 
 // Random systems at the limits of what double precision decides, beside a simulation of 90 digits.
 namespace clackers::exact {
@@ -191,11 +191,11 @@ TEST(PiecewiseMotion, AtResonanceIsTheSimulationWithinItsBound) {
     const auto n = problem.dof();
     s.damping.setZero();
     if (box.one_in(3)) s.damping = box.decades(-12.0, -6.0) * s.stiffness;
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(s.stiffness, s.mass);
+    const auto squares = numerics::normal_modes(s.stiffness, s.mass).value().squares;
     const auto mode = Eigen::Index(box.uniform(0.0, double(n)));
     const double apart = box.one_in(3) ? 0.0 : box.decades(-17.0, -5.0);
     s.add_load = model::HarmonicLoad(
-        {{0, box.uniform(-0.5, 0.5), std::sqrt(modes.eigenvalues()[mode]) * (1.0 + apart), 1.0}});
+        {{0, box.uniform(-0.5, 0.5), std::sqrt(squares[mode]) * (1.0 + apart), 1.0}});
     if (test::refusal_of([&] { PiecewiseMotion{problem}; }) != "accepted") continue;
     ++members;
     const PiecewiseMotion motion(problem);
@@ -206,6 +206,29 @@ TEST(PiecewiseMotion, AtResonanceIsTheSimulationWithinItsBound) {
               motion.envelope(t).u.maxCoeff() * (1.0 + 1e-12));
   }
   EXPECT_EQ(members, trials(12));
+}
+
+// u = t sin(t)/2, all of it a beat.
+TEST(PiecewiseMotion, ALoadAtResonanceMovesAMassFromRest) {
+  model::ImpactProblem<> problem;
+  auto& s = problem.system;
+  s.mass = s.stiffness = MatrixXd::Identity(1, 1);
+  s.damping = MatrixXd::Zero(1, 1);
+  s.add_load = model::HarmonicLoad({{0, 1.0, 1.0, 0.0}});
+  problem.start = {0.0, VectorXd::Zero(1), VectorXd::Zero(1)};
+  problem.end = 50.0;
+  problem.contacts = {{VectorXd::Unit(1, 0), -100.0, 0.5}};
+  const PiecewiseMotion motion(problem);
+  for (const double t : {0.5, 3.0, 20.0, 50.0}) {
+    const auto now = motion.at(t, Side::left), bound = motion.error_bound(t),
+               most = motion.envelope(t);
+    EXPECT_LE(abs(t * sin(Real(t)) / 2 - now.u[0]), bound.u[0]) << t;
+    EXPECT_LE(abs((sin(Real(t)) + t * cos(Real(t))) / 2 - now.v[0]), bound.v[0]) << t;
+    EXPECT_GT(bound.u[0], 1e-16 * t);
+    EXPECT_LT(bound.u[0], 1e-13 * (1.0 + t * t));
+    EXPECT_NEAR(most.u[0], 0.5 * t, 1e-12 * t);
+    EXPECT_GE(most.v[0], 0.5 * t);
+  }
 }
 
 }  // namespace

@@ -63,17 +63,15 @@ VectorXd FrictionMotion::contact_forces(double t, Side side) const {
           .nearest());
 }
 
-// Of 2 F in k x0 - F.
-long long half_swings(const SliderParameters& p) {
-  const WideReal left = WideReal(p.k) * WideReal(p.x0) - WideReal(p.F), step = 2 * WideReal(p.F),
-                 whole = floor(left / step);
-  return static_cast<long long>(whole) + (whole * step < left ? 1 : 0);
-}
-
 namespace {
 
+// By which the spring overcomes friction.
+WideReal excess(const SliderParameters& p) {
+  return WideReal(p.k) * WideReal(p.x0) - WideReal(p.F);
+}
+
 const SliderParameters& require_moving(const SliderParameters& p, std::string_view who) {
-  const WideReal left = WideReal(p.k) * WideReal(p.x0) - WideReal(p.F);
+  const auto left = excess(p);
   if (!(left > 0))
     refuse(who, "x0", p.x0, fmt::format("x0 > F/k = {}", p.F / p.k),
            "The spring does not overcome friction, so that the mass never moves.",
@@ -85,6 +83,12 @@ const SliderParameters& require_moving(const SliderParameters& p, std::string_vi
 }
 
 }  // namespace
+
+// Of 2 F in k x0 - F.
+long long half_swings(const SliderParameters& p) {
+  const WideReal left = excess(p), step = 2 * WideReal(p.F), whole = floor(left / step);
+  return static_cast<long long>(whole) + (whole * step < left ? 1 : 0);
+}
 
 Slider::Slider(const SliderParameters& p, std::string_view who)
     : FrictionMotionBy(p, {require_moving(p, who), exact::half_swings(p)},

@@ -19,6 +19,7 @@ inline bool explains_no_order(const Claim& claim) {
   return !claim.reason.empty() &&
          (claim.behaviour == Behaviour::undecided || claim.behaviour == Behaviour::divergent);
 }
+
 /// Whether errors are those of contacts of few steps, whose upper envelope falls while some are
 /// resolved by chance, whatever floor follows.
 bool is_above_floor(const LadderFit& fit, const JudgeContext& facts);
