@@ -29,7 +29,8 @@ double angle_of(const Case& test_case, const Values& value, const char* name) {
   return theta;
 }
 
-void use(Case& test_case, std::shared_ptr<const exact::StoppedOscillator> motion, double linear) {
+template <class Motion>
+void use(Case& test_case, std::shared_ptr<const Motion> motion, double linear) {
   test_case.problem = motion->problem();
   const double period = 2.0 * motion->half_period().nearest();
   test_case.damped_periods = {period};
@@ -70,17 +71,8 @@ void build_duffing(Case& test_case, const Values& value, double) {
   use(test_case, std::make_shared<const exact::Duffing>(p, who), omega);
 }
 
-exact::TwoPendula::Parameters pendula_of(const Case& test_case, const Values& value) {
-  exact::TwoPendula::Parameters p;
-  p.l1 = within(test_case, value, "l1");
-  p.g = within(test_case, value, "g");
-  p.theta1 = angle_of(test_case, value, "theta1");
-  p.end = end_of(test_case, value);
-  return p;
-}
-
-void use(Case& test_case, const exact::TwoPendula& pendula) {
-  const auto motion = std::make_shared<const exact::TwoPendula>(pendula);
+void use_pendula(Case& test_case, const auto& parameters) {
+  const auto motion = std::make_shared<const exact::TwoPendula>(parameters, test_case.entry->name);
   test_case.problem = motion->problem();
   auto& list = test_case.constants;
   for (int i = 0; i < 2; ++i) {
@@ -106,16 +98,17 @@ void use(Case& test_case, const exact::TwoPendula& pendula) {
 }
 
 void build_two_pendula(Case& test_case, const Values& value, double) {
-  auto p = pendula_of(test_case, value);
-  p.m1 = within(test_case, value, "m1");
-  p.m2 = within(test_case, value, "m2");
-  use(test_case, exact::TwoPendula::synchronized(p, test_case.entry->name));
+  use_pendula(test_case, exact::TwoPendulaParameters{
+                             within(test_case, value, "m1"), within(test_case, value, "m2"),
+                             within(test_case, value, "l1"), within(test_case, value, "g"),
+                             angle_of(test_case, value, "theta1"), end_of(test_case, value)});
 }
 
 void build_pendulum_cradle(Case& test_case, const Values& value, double) {
-  use(test_case,
-      exact::TwoPendula::alternating(pendula_of(test_case, value), within(test_case, value, "l2"),
-                                     test_case.entry->name));
+  use_pendula(test_case, exact::PendulumCradleParameters{
+                             within(test_case, value, "l1"), within(test_case, value, "l2"),
+                             within(test_case, value, "g"), angle_of(test_case, value, "theta1"),
+                             end_of(test_case, value)});
 }
 
 }  // namespace

@@ -3,12 +3,15 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <string>
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/cases/testing/constants.hpp"
+#include "clackers/exact/certified/digits.hpp"
+#include "clackers/exact/testing/real.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
 #include "clackers/model/nonlinear_springs.hpp"
 #include "clackers/model/problem_file.hpp"
@@ -21,24 +24,27 @@ namespace {
 using exact::testing_oracle::Box;
 using exact::testing_oracle::trials;
 using model::Side;
-using Number = long double;
-constexpr int terms = 30;
+template <class Number>
+constexpr int terms = std::numeric_limits<Number>::digits > 64 ? 70 : 30;
+template <class Number>
 struct Series {
-  std::array<Number, std::size_t(terms)> values{};
+  std::array<Number, std::size_t(terms<Number>)> values{};
   Number& operator[](int n) { return values[std::size_t(n)]; }
   const Number& operator[](int n) const { return values[std::size_t(n)]; }
 };
 
 // From u and v the Taylor coefficients of u.
-using Expansion = std::function<Series(Number u, Number v)>;
+template <class Number>
+using Expansion = std::function<Series<Number>(const Number& u, const Number& v)>;
 
-Expansion pendulum(Number l, Number g) {
-  return [l, g](Number u0, Number v0) {
+template <class Number>
+Expansion<Number> pendulum(Number l, Number g) {
+  return [l, g](const Number& u0, const Number& v0) {
     // With x = u/l, s = sin x and c = cos x: s' = c x', c' = -s x'.
-    Series u, s, c;
+    Series<Number> u, s, c;
     u[0] = u0, u[1] = v0;
-    s[0] = std::sin(u0 / l), c[0] = std::cos(u0 / l);
-    for (int n = 0; n + 2 < terms; ++n) {
+    s[0] = sin(Number(u0 / l)), c[0] = cos(Number(u0 / l));
+    for (int n = 0; n + 2 < terms<Number>; ++n) {
       u[n + 2] = -g * s[n] / ((n + 1) * (n + 2));
       Number ds = 0, dc = 0;
       for (int i = 0; i <= n; ++i) {
@@ -52,11 +58,12 @@ Expansion pendulum(Number l, Number g) {
   };
 }
 
-Expansion duffing(Number w2, Number b) {
-  return [w2, b](Number u0, Number v0) {
-    Series u, square;
+template <class Number>
+Expansion<Number> duffing(Number w2, Number b) {
+  return [w2, b](const Number& u0, const Number& v0) {
+    Series<Number> u, square;
     u[0] = u0, u[1] = v0;
-    for (int n = 0; n + 2 < terms; ++n) {
+    for (int n = 0; n + 2 < terms<Number>; ++n) {
       Number cube = 0;
       for (int i = 0; i <= n; ++i) square[n] += u[i] * u[n - i];
       for (int i = 0; i <= n; ++i) cube += square[i] * u[n - i];
@@ -66,21 +73,22 @@ Expansion duffing(Number w2, Number b) {
   };
 }
 
+template <class Number>
 struct Bouncer {
-  Expansion expansion;
+  Expansion<Number> expansion;
   Number step, eta, t, u, v;
   long long impacts = 0;
   Number first = 0, fastest = 0;
 
-  std::pair<Number, Number> after(const Series& series, Number h) const {
+  std::pair<Number, Number> after(const Series<Number>& series, const Number& h) const {
     Number x = 0, rate = 0;
-    for (int n = terms; n-- > 0;) x = x * h + series[n];
-    for (int n = terms; n-- > 1;) rate = rate * h + n * series[n];
+    for (int n = terms<Number>; n-- > 0;) x = x * h + series[n];
+    for (int n = terms<Number>; n-- > 1;) rate = rate * h + n * series[n];
     return {x, rate};
   }
-  void run_to(Number end) {
+  void run_to(const Number& end) {
     while (t < end) {
-      const Number h = std::min(step, end - t);
+      const Number h = std::min<Number>(step, end - t);
       const auto series = expansion(u, v);
       const auto next = after(series, h);
       if (next.first >= 0) {
@@ -89,7 +97,7 @@ struct Bouncer {
         continue;
       }
       Number inside = 0, outside = h;
-      for (int i = 0; i < 70; ++i) {
+      for (int i = 0; i < std::numeric_limits<Number>::digits + 6; ++i) {
         const Number middle = (inside + outside) / 2;
         (after(series, middle).first >= 0 && (middle > 0) ? inside : outside) = middle;
       }
@@ -103,8 +111,8 @@ struct Bouncer {
 
 // Mass 1 above the stop, or mass 2 below it, at six times. `condition`: of the instants with the start, which the
 // problem has rounded; large beside the motions that never come back.
-void expect_states(Box& box, const model::Motion& motion, int mass, Bouncer& known, double period,
-                   double condition) {
+void expect_states(Box& box, const model::Motion& motion, int mass, Bouncer<long double>& known,
+                   double period, double condition) {
   const double sign = mass == 0 ? 1.0 : -1.0;
   const auto size = motion.envelope(0.0);
   for (int i = 1; i <= 6; ++i) {
@@ -119,11 +127,12 @@ void expect_states(Box& box, const model::Motion& motion, int mass, Bouncer& kno
   }
 }
 
-void expect_simulated(Box& box, const Case& test_case, const Expansion& expansion, double eta,
-                      double condition) {
+void expect_simulated(Box& box, const Case& test_case, const Expansion<long double>& expansion,
+                      double eta, double condition) {
   const auto& start = test_case.problem.start;
   const double period = constant(test_case, "T_0");
-  Bouncer known{expansion, Number(period) / 150, eta, 0, start.u[0], 0};
+  Bouncer<long double> known{expansion, static_cast<long double>(period) / 150, eta, 0, start.u[0],
+                             0};
   expect_states(box, *test_case.motion, 0, known, period, condition);
   if (known.impacts == 0) return;
   const auto hit = test_case.motion->impact(1);
@@ -151,7 +160,7 @@ TEST(EllipticCases, PendulumsSwingAsTheirTaylorSeries) {
                                        {"theta0", theta0},
                                        {"eta", eta},
                                        {"t_end", box.uniform(1.0, 30.0) * std::sqrt(l / g)}}),
-                     pendulum(l, g), eta, 4.0 / std::cos(0.5 * theta0));
+                     pendulum<long double>(l, g), eta, 4.0 / std::cos(0.5 * theta0));
   }
 }
 
@@ -164,15 +173,16 @@ TEST(EllipticCases, DuffingOscillatorsSwingAsTheirTaylorSeries) {
                  b = k / (u0 * u0) *
                      (box.one_in(2) ? -box.uniform(0.0, 0.99) : box.decades(-3.0, 2.0)),
                  eta = box.one_in(4) ? 1.0 : box.uniform(0.05, 1.0);
-    expect_simulated(box,
-                     make("duffing-stop", {{"m", m},
-                                           {"k", k},
-                                           {"b", b},
-                                           {"u0", u0},
-                                           {"eta", eta},
-                                           {"t_end", box.uniform(1.0, 30.0) * std::sqrt(m / k)}}),
-                     duffing(Number(k) / m, Number(b) / m), eta,
-                     4.0 / std::min(1.0, 1.0 + b * u0 * u0 / k));
+    expect_simulated(
+        box,
+        make("duffing-stop", {{"m", m},
+                              {"k", k},
+                              {"b", b},
+                              {"u0", u0},
+                              {"eta", eta},
+                              {"t_end", box.uniform(1.0, 30.0) * std::sqrt(m / k)}}),
+        duffing<long double>(static_cast<long double>(k) / m, static_cast<long double>(b) / m), eta,
+        4.0 / std::min(1.0, 1.0 + b * u0 * u0 / k));
   }
 }
 
@@ -184,8 +194,12 @@ void expect_bob(Box& box, const Case& test_case, int mass, double condition) {
   };
   const double T = name("T"), l = name("l"), start = std::abs(test_case.problem.start.u[mass]);
   const auto& row = model::nonlinear_springs(test_case.problem)->rows()[std::size_t(mass)];
-  Bouncer known{
-      pendulum(l, row.stiffness * row.length / name("m")), Number(T) / 75, 1, 0, start, 0};
+  Bouncer<long double> known{pendulum<long double>(l, row.stiffness * row.length / name("m")),
+                             static_cast<long double>(T) / 75,
+                             1,
+                             0,
+                             start,
+                             0};
   expect_states(box, *test_case.motion, mass, known, T, condition);
 }
 
@@ -263,9 +277,10 @@ TEST(EllipticCases, PendulaOfACradleRestInTurn) {
     const double T[] = {constant(test_case, "T1"), constant(test_case, "T2")};
     const double condition = 40.0 / std::cos(0.5 * theta1) / std::min(1.0, l2 / height - 1.0);
     // Either pendulum by its Taylor series over the time that it swings.
-    Bouncer bobs[] = {
-        {pendulum(l1, g), Number(T[0]) / 75, 1, 0, test_case.problem.start.u[0], 0},
-        {pendulum(l2, g), Number(T[1]) / 75, 1, 0, 0, std::sqrt(4 * Number(g) * height)}};
+    using Number = long double;
+    Bouncer<Number> bobs[] = {
+        {pendulum<Number>(l1, g), Number(T[0]) / 75, 1, 0, test_case.problem.start.u[0], 0},
+        {pendulum<Number>(l2, g), Number(T[1]) / 75, 1, 0, 0, std::sqrt(4 * Number(g) * height)}};
     Number begun = -Number(T[0]) / 2, swung[] = {-Number(T[0]) / 2, 0};
     for (int flight = 0; begun < motion.end() && flight < 30; ++flight) {
       const int mass = flight % 2;
@@ -292,6 +307,110 @@ TEST(EllipticCases, PendulaOfACradleRestInTurn) {
     EXPECT_NEAR(0.5 * first.impulse * first.impulse, 2.0 * g * height, 1e-14 * g * height);
   }
 }
+
+#ifdef CLACKERS_HAS_ARB
+using exact::testing_oracle::Real;
+
+// Of mass i at 12 instants, and after the first impact.
+void expect_digits(certified::Digits& digits, const model::Motion& motion, std::size_t i,
+                   Bouncer<Real>& known) {
+  const Real sign = i == 0 ? 1 : -1;
+  const auto expect = [&](const std::string& given, const Real& value) {
+    EXPECT_LE(abs(Real(sign * Real(given) - value)), Real("1e-60"))
+        << "mass " << i + 1 << " at " << known.t;
+  };
+  for (int k = 1; k <= 12; ++k) {
+    const double t = motion.end() * k / 13.0;
+    known.run_to(t);
+    const auto now = digits.at(t, Side::right);
+    expect(now.u[i], known.u);
+    expect(now.v[i], known.v);
+  }
+  ASSERT_GT(known.impacts, 1);
+  const auto hit = digits.impact(1);
+  EXPECT_LE(abs(Real(Real(hit.t) - known.first)), Real("1e-60"));
+  expect(hit.before.v[i], -known.fastest);
+  expect(hit.after.v[i], known.eta * known.fastest);
+}
+
+// With 90 digits.
+TEST(EllipticCases, DigitsAreThoseOfTheirTaylorSeries) {
+  const auto expect = [](const Case& test_case, const Expansion<Real>& expansion, double eta) {
+    certified::Digits digits(*test_case.motion, 70);
+    const Real start(digits.at(0.0, Side::right).u[0]);
+    Bouncer<Real> known{expansion, Real(constant(test_case, "T_0")) / 150, eta, 0, start, 0};
+    expect_digits(digits, *test_case.motion, 0, known);
+  };
+  const Settings pendulum_settings{{"l", 1.7}, {"theta0", 2.6}, {"eta", 0.7}};
+  expect(make("pendulum", pendulum_settings), pendulum<Real>(1.7, 9.81), 0.7);
+  for (const double b : {2.0, -0.6})
+    expect(make("duffing-stop", {{"m", 1.3}, {"b", b}, {"eta", 0.9}}),
+           duffing<Real>(Real(1.0) / Real(1.3), Real(b) / Real(1.3)), 0.9);
+}
+
+// With 90 digits; length and start of pendulum 2 from the digits of its start and of its acceleration there.
+TEST(EllipticCases, DigitsOfTwoPendulaAreThoseOfTheirTaylorSeries) {
+  for (const double m1 : {1.3, 0.2}) {
+    const auto test_case = make("two-pendula", {{"m1", m1}, {"theta1", 0.9}, {"g", 9.5}});
+    const auto& motion = *test_case.motion;
+    certified::Digits digits(motion, 75);
+    const auto start = digits.at(0.0, Side::right);
+    // g sin(u2/l2) = a2 by Newton's method.
+    const Real u2 = abs(Real(start.u[1])), a2 = abs(Real(start.a[1]));
+    Real x = u2 / Real(constant(test_case, "l2"));
+    for (int i = 0; i < 8; ++i) x = x - (Real(9.5) * sin(x) - a2) / (Real(9.5) * cos(x));
+    for (const std::size_t i : {0U, 1U}) {
+      const Real u = abs(Real(start.u[i])), l = i == 0 ? Real(1.0) : Real(u2 / x);
+      Bouncer<Real> known{pendulum<Real>(l, 9.5), Real(constant(test_case, "T1")) / 75, 1, 0, u, 0};
+      expect_digits(digits, motion, i, known);
+    }
+    const auto hit = digits.impact(1);
+    EXPECT_LE(abs(Real(Real(m1) * Real(hit.before.v[0]) + Real(hit.before.v[1]))), Real("1e-60"));
+    EXPECT_LE(abs(Real(Real(hit.energy_before) - Real(hit.energy_after))), Real("1e-60"));
+    const Real v1(hit.before.v[0]), v2(hit.before.v[1]);
+    EXPECT_LE(abs(Real(Real(hit.energy_before) - (Real(m1) * v1 * v1 + v2 * v2) / 2)),
+              Real("1e-60"));
+  }
+}
+
+// With 90 digits: pendulum 1 until the first impact, pendulum 2 until the second.
+TEST(EllipticCases, DigitsOfPendulaInTurnAreThoseOfTheirTaylorSeries) {
+  const auto test_case =
+      make("pendulum-cradle", {{"l1", 0.9}, {"l2", 0.7}, {"theta1", 1.2}, {"t_end", 1.7}});
+  const auto& motion = *test_case.motion;
+  certified::Digits digits(motion, 70);
+  Bouncer<Real> first{pendulum<Real>(0.9, 9.81),
+                      Real(constant(test_case, "T1")) / 75,
+                      1,
+                      0,
+                      Real(0.9) * Real(1.2),
+                      0};
+  first.run_to(1.0);
+  const Real t1 = first.first, tight("1e-60");
+  Bouncer<Real> second{
+      pendulum<Real>(0.7, 9.81), Real(constant(test_case, "T2")) / 75, 1, t1, 0, first.fastest};
+  for (int k = 1; k < 12; ++k) {
+    const double t = motion.end() * k / 12.0;
+    const auto now = digits.at(t, Side::right);
+    if (Real(t) < t1 || second.impacts > 0) continue;
+    second.run_to(t);
+    if (second.impacts > 0) break;
+    EXPECT_LE(abs(Real(Real(now.u[1]) + second.u)), tight) << t;
+    EXPECT_LE(abs(Real(Real(now.v[1]) + second.v)), tight) << t;
+    EXPECT_EQ(Real(now.u[0]), Real(0));
+  }
+  second.run_to(motion.end());
+  ASSERT_EQ(second.impacts, 1);
+  const auto one = digits.impact(1), two = digits.impact(2);
+  EXPECT_LE(abs(Real(Real(one.t) - t1)), tight);
+  EXPECT_LE(abs(Real(Real(two.t) - second.first)), tight);
+  EXPECT_LE(abs(Real(Real(one.before.v[0]) + first.fastest)), tight);
+  EXPECT_LE(abs(Real(Real(one.after.v[1]) + first.fastest)), tight);
+  EXPECT_LE(abs(Real(Real(two.before.v[1]) - second.fastest)), tight);
+  EXPECT_LE(abs(Real(Real(two.after.v[0]) - second.fastest)), tight);
+  EXPECT_LE(abs(Real(Real(one.impulse) - first.fastest)), tight);
+}
+#endif
 
 TEST(EllipticCases, HaveTheirTextbookPeriods) {
   const auto ratio = [](double degrees) {

@@ -41,6 +41,7 @@ struct BoundedOf {
     return rounded(quotient, least > Real(0) ? (a.error + abs(quotient) * b.error) / least
                                              : std::numeric_limits<Real>::infinity());
   }
+  friend Bounded abs(const Bounded& x) { return {abs(x.value), x.error}; }
   friend Bounded sin(const Bounded& x) { return rounded(sin(x.value), x.error, 2); }
   friend Bounded cos(const Bounded& x) { return rounded(cos(x.value), x.error, 2); }
   friend Bounded atan(const Bounded& x) { return rounded(atan(x.value), x.error, 2); }
@@ -59,6 +60,32 @@ struct BoundedOf {
     return rounded(root, x.error < x.value    ? x.error / sqrt(x.value - x.error)
                          : x.error == Real(0) ? Real(0)
                                               : std::numeric_limits<Real>::infinity());
+  }
+
+  /// The arithmetic-geometric mean of two positive numbers.
+  friend Bounded agm(Bounded a, Bounded b) {
+    const Bounded half = 0.5;
+    const auto apart = [&] { return abs(a.value - b.value); };
+    while (apart() > Real(1e-10) * a.value) {
+      const auto mean = half * (a + b);
+      b = sqrt(a * b);
+      a = mean;
+    }
+    // The next mean; the one after it differs by the square of this difference.
+    return widened(half * (a + b), Bounded(apart() * apart() / a.value, Real(0)));
+  }
+  /// The value without its error.
+  friend Bounded middle(const Bounded& x) { return {x.value, Real(0)}; }
+  /// At least |x|, without an error.
+  friend Bounded upper(const Bounded& x) { return {abs(x.value) + x.error, Real(0)}; }
+  /// With an error larger by |more|.
+  friend Bounded widened(const Bounded& x, const Bounded& more) {
+    return {x.value, x.error + abs(more.value) + more.error};
+  }
+  bool is_positive() const { return value > error; }  ///< certainly > 0
+  /// Whether 1 + x is 1 to a part of the rounding.
+  bool is_negligible() const {
+    return abs(value) + error < std::numeric_limits<Real>::epsilon() * Real(0x1p-10);
   }
 
   static Bounded pi() { return rounded(acos(Real(-1)), Real(0)); }

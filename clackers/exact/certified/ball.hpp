@@ -51,6 +51,10 @@ class Ball {
   bool is_negative() const { return arb_is_negative(x_) != 0; }   ///< certainly < 0
   bool holds_zero() const { return arb_contains_zero(x_) != 0; }  ///< perhaps 0
   bool holds(double value) const { return arb_contains(x_, Ball(value).x_) != 0; }
+  /// Whether 1 + x is 1 to a part of the rounding.
+  bool is_negligible() const {
+    return arb_is_zero(x_) || arf_cmpabs_2exp_si(arb_midref(x_), -WorkingBits::now() - 10) < 0;
+  }
   /// Certain bits: -log2 of the radius relative to the middle; huge when exact.
   long accuracy() const { return arb_rel_accuracy_bits(x_); }
   /// The middle to the nearest double.
@@ -129,6 +133,12 @@ inline Ball atan(const Ball& a) {
   arb_atan(c.get(), a.get(), WorkingBits::now());
   return c;
 }
+/// The arithmetic-geometric mean of two positive numbers.
+inline Ball agm(const Ball& a, const Ball& b) {
+  Ball c;
+  arb_agm(c.get(), a.get(), b.get(), WorkingBits::now());
+  return c;
+}
 inline Ball power(const Ball& a, unsigned long n) {
   Ball c;
   arb_pow_ui(c.get(), a.get(), n, WorkingBits::now());
@@ -151,6 +161,11 @@ inline Ball upper(const Ball& a) {
   Ball c;
   arb_get_abs_ubound_arf(arb_midref(c.get()), a.get(), WorkingBits::now());
   return c;
+}
+/// With a radius larger by the numbers of |more|.
+inline Ball widened(Ball a, const Ball& more) {
+  arb_add_error(a.get(), more.get());
+  return a;
 }
 /// a 2^n, exactly.
 inline Ball scaled(const Ball& a, long n) {

@@ -37,8 +37,8 @@ Inputs::Inputs(const model::Motion& motion) {
   const auto* known = exact::as_closed_form(motion);
   if (known == nullptr)
     throw InputError(
-        "digits: this motion is known to double precision only; allowed: cases and problem files "
-        "with linear springs, or with friction in closed form.",
+        "digits: this motion is known to double precision only; allowed: those of cases, and of problem files with "
+        "linear springs.",
         "no-enclosure");
   *this =
       std::visit([](const auto& parameters) { return Inputs(parameters); }, known->parameters());

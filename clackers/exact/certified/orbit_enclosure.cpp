@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "clackers/base/error.hpp"
+#include "clackers/exact/elliptic/two_pendula.hpp"
 #include "clackers/exact/friction/friction_motion.hpp"
 #include "clackers/exact/friction/oblique_disk.hpp"
 
@@ -32,6 +33,14 @@ auto in_balls(const exact::SliderParameters& p) {
 auto in_balls(const exact::BeltParameters& p) { return exact::BeltFormulas<Ball>(p); }
 auto in_balls(const exact::ForcedSliderParameters& p) {
   return exact::ForcedSliderFormulas<Ball>(p);
+}
+auto in_balls(const exact::PendulumParameters& p) { return exact::PendulumFormulas<Ball>(p); }
+auto in_balls(const exact::DuffingParameters& p) { return exact::DuffingFormulas<Ball>(p); }
+auto in_balls(const exact::TwoPendulaParameters& p) {
+  return exact::TwoPendulaFormulas<Ball>(p, exact::second_modulus(p));
+}
+auto in_balls(const exact::PendulumCradleParameters& p) {
+  return exact::TwoPendulaFormulas<Ball>(p);
 }
 auto in_balls(const auto& p) { return exact::OrbitFormulas<Ball>(p); }
 

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "clackers/exact/certified/enclosure.hpp"
+#include "clackers/exact/elliptic/elliptic_formulas.hpp"
 #include "clackers/exact/friction/disk_formulas.hpp"
 #include "clackers/exact/friction/friction_formulas.hpp"
 #include "clackers/exact/orbit/circle_formulas.hpp"
@@ -33,10 +34,11 @@ class OrbitEnclosure : public Enclosure {
  private:
   void require_resolved(double t) const;
   KinematicBalls kinematics(const exact::StatesOf<Ball>& states) const;
-  using Formulas = std::variant<exact::CradleFormulas<Ball>, exact::OrbitFormulas<Ball>,
-                                exact::CircleFormulas<Ball>, exact::BallFormulas<Ball>,
-                                exact::DiskFormulas<Ball>, exact::SliderFormulas<Ball>,
-                                exact::BeltFormulas<Ball>, exact::ForcedSliderFormulas<Ball>>;
+  using Formulas = std::variant<
+      exact::CradleFormulas<Ball>, exact::OrbitFormulas<Ball>, exact::CircleFormulas<Ball>,
+      exact::BallFormulas<Ball>, exact::DiskFormulas<Ball>, exact::SliderFormulas<Ball>,
+      exact::BeltFormulas<Ball>, exact::ForcedSliderFormulas<Ball>, exact::PendulumFormulas<Ball>,
+      exact::DuffingFormulas<Ball>, exact::TwoPendulaFormulas<Ball>>;
   const Formulas& formulas();
 
   const exact::Flights& motion_;

@@ -20,9 +20,6 @@ namespace {
 
 VectorXd number(double x) { return VectorXd::Constant(1, x); }
 
-Bounded absolute(const Bounded& x) { return x.value < 0.0L ? -x : x; }
-bool is_positive(const Bounded& x) { return x.value > x.error; }
-
 constexpr long long most_flights = 4'000'000'000'000'000'000;
 // About how many times T has passed at t.
 long long flights_within(double t, const Bounded& T, long long most) {
@@ -32,15 +29,15 @@ long long flights_within(double t, const Bounded& T, long long most) {
 
 }  // namespace
 
-FrictionMotion::FrictionMotion(const FlightsParameters& parameters, double m, double k,
-                               const model::Friction<>& friction, double end)
-    : Flights(parameters) {
-  problem_.system.mass = number(m);
+template <class Parameters>
+FrictionMotion::FrictionMotion(const Parameters& p, const model::Friction<>& friction)
+    : Flights(p) {
+  problem_.system.mass = number(p.m);
   problem_.system.damping = number(0.0);
-  problem_.system.stiffness = number(k);
+  problem_.system.stiffness = number(p.k);
   problem_.frictions = {friction};
   problem_.start = {0.0, number(0.0), number(0.0)};
-  problem_.end = end;
+  problem_.end = p.end;
 }
 
 model::Kinematics FrictionMotion::envelope(double t) const {
@@ -91,8 +88,8 @@ long long half_swings(const SliderParameters& p) {
 }
 
 Slider::Slider(const SliderParameters& p, std::string_view who)
-    : FrictionMotionBy(p, {require_moving(p, who), exact::half_swings(p)},
-                       {number(1.0), p.F, p.F}) {
+    : FlightsBy({require_moving(p, who), exact::half_swings(p)}, p,
+                model::Friction<>{number(1.0), p.F, p.F}) {
   problem_.start.u[0] = p.x0;
   const auto swing = (formulas_.x0 - formulas_.d) * formulas_.omega;
   size_ = {p.x0, swing.nearest(), (swing * formulas_.omega).nearest()};
@@ -103,7 +100,8 @@ long long Slider::near_flight(double t) const {
 }
 
 Belt::Belt(const BeltParameters& p, std::string_view who)
-    : FrictionMotionBy(p, BeltFormulas<Bounded>(p), {number(1.0), p.limit, p.kinetic, p.V}) {
+    : FlightsBy(BeltFormulas<Bounded>(p), p,
+                model::Friction<>{number(1.0), p.limit, p.kinetic, p.V}) {
   if (!(p.limit > p.kinetic))
     refuse(who, "Fd", p.kinetic, fmt::format("Fd < Fs = {}", p.limit),
            "Without a difference the mass slides into rest, and no stick and slip repeats.",
@@ -134,24 +132,24 @@ std::string near_resonance(const Bounded& b) {
 }  // namespace
 
 ForcedSlider::ForcedSlider(const ForcedSliderParameters& p, std::string_view who)
-    : FrictionMotionBy(p, ForcedSliderFormulas<Bounded>(p), {number(1.0), p.F, p.F}) {
+    : FlightsBy(ForcedSliderFormulas<Bounded>(p), p, model::Friction<>{number(1.0), p.F, p.F}) {
   const auto& f = formulas_;
-  if (!is_positive(absolute(f.square)))
+  if (!abs(f.square).is_positive())
     refuse(who, "W", p.W, "W other than sqrt(k/m)", "At resonance the amplitude grows for ever.",
            "not-admissible");
-  if (!is_positive(f.left))
-    refuse(who, "F", p.F, fmt::format("F < P |Vd/H| = {:.3g}", absolute(f.peak / f.H).nearest()),
+  if (!f.left.is_positive())
+    refuse(who, "F", p.F, fmt::format("F < P |Vd/H| = {:.3g}", abs(f.peak / f.H).nearest()),
            "Friction is too large for a motion that turns without a stop." + near_resonance(f.b),
            "not-admissible");
   phi_ = double(std::atan2(f.sin_phi.value, f.cos_phi.value));
-  const auto most = absolute(f.P * f.cos_phi - f.k * f.x0);
-  if (!is_positive(most - f.F))
+  const auto most = abs(f.P * f.cos_phi - f.k * f.x0);
+  if (!(most - f.F).is_positive())
     refuse(who, "F", p.F, fmt::format("F < |P cos phi - k x0| = {}", most.nearest()),
            "The mass would stop at its turning points.", "not-admissible");
   require_sliding(who);
   problem_.system.add_load = model::HarmonicLoad({{0, p.P, p.W, phi_}});
   problem_.start.u[0] = f.x0.nearest();
-  const auto own = f.F * sqrt(Bounded(1.0) + f.tan * f.tan), force = absolute(f.peak);
+  const auto own = f.F * sqrt(Bounded(1.0) + f.tan * f.tan), force = abs(f.peak);
   size_ = {f.x0.nearest(), ((force * f.W + own * f.omega) / f.k).nearest(),
            ((force * f.W * f.W + own * f.omega * f.omega) / f.k).nearest()};
 }
@@ -165,7 +163,7 @@ long long ForcedSlider::near_flight(double t) const {
 void ForcedSlider::require_sliding(std::string_view who) const {
   const auto& f = formulas_;
   const long double own = (f.F * sqrt(Bounded(1.0) + f.tan * f.tan)).value / f.k.value,
-                    driven = absolute(f.peak).value / f.k.value, w = f.omega.value, W = f.W.value,
+                    driven = abs(f.peak).value / f.k.value, w = f.omega.value, W = f.W.value,
                     most_a = own * w * w + driven * W * W,
                     most_jerk = own * w * w * w + driven * W * W * W;
   const auto T = f.T.value;

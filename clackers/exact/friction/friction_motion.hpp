@@ -2,7 +2,6 @@
 
 #include <array>
 #include <string_view>
-#include <utility>
 
 #include "clackers/exact/friction/friction_formulas.hpp"
 #include "clackers/exact/orbit/flights.hpp"
@@ -20,33 +19,17 @@ class FrictionMotion : public Flights {
   Eigen::VectorXd contact_forces(double t, model::Side side) const override;
 
  protected:
-  FrictionMotion(const FlightsParameters& parameters, double m, double k,
-                 const model::Friction<>& friction, double end);
+  template <class Parameters>
+  FrictionMotion(const Parameters& parameters, const model::Friction<>& friction);
 
   std::array<double, 3> size_{};  ///< of u, v and a
-};
-
-/// By its formulas.
-template <template <class> class FormulasOf>
-class FrictionMotionBy : public FrictionMotion {
- protected:
-  template <class Parameters>
-  FrictionMotionBy(const Parameters& p, FormulasOf<Bounded> formulas,
-                   const model::Friction<>& friction)
-      : FrictionMotion(p, p.m, p.k, friction, p.end), formulas_(std::move(formulas)) {}
-
-  Bounded instant(long long k) const override { return formulas_.instant(k); }
-  States state(long long k, const Bounded& s) const override { return formulas_.state(k, s); }
-  Limits limits(long long k) const override { return formulas_.limits(k); }
-
-  FormulasOf<Bounded> formulas_;
 };
 
 /// Of a slider that moves, by products that are exact in 256 bits.
 long long half_swings(const SliderParameters& parameters);
 
 /// From rest at x0 > F/k. C. A. Coulomb (1785).
-class Slider final : public FrictionMotionBy<SliderFormulas> {
+class Slider final : public FlightsBy<FrictionMotion, SliderFormulas> {
  public:
   /// Throws InputError unless k x0 > F, and for more than 1e9 half swings.
   Slider(const SliderParameters& p, std::string_view who);
@@ -59,7 +42,7 @@ class Slider final : public FrictionMotionBy<SliderFormulas> {
 };
 
 /// On a belt of velocity V, from the beginning of sticking.
-class Belt final : public FrictionMotionBy<BeltFormulas> {
+class Belt final : public FlightsBy<FrictionMotion, BeltFormulas> {
  public:
   /// Throws InputError unless limit > kinetic.
   Belt(const BeltParameters& p, std::string_view who);
@@ -71,7 +54,7 @@ class Belt final : public FrictionMotionBy<BeltFormulas> {
 };
 
 /// Under P cos(W t + phi) the periodic motion without stops, from a turning point. J. P. den Hartog (1931).
-class ForcedSlider final : public FrictionMotionBy<ForcedSliderFormulas> {
+class ForcedSlider final : public FlightsBy<FrictionMotion, ForcedSliderFormulas> {
  public:
   /// Throws InputError where there is no such motion.
   ForcedSlider(const ForcedSliderParameters& p, std::string_view who);

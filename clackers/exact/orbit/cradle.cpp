@@ -18,7 +18,8 @@ constexpr double largest_cradle_phase = 1e12;
 
 }  // namespace
 
-Cradle::Cradle(const CradleParameters& p, std::string_view who) : Flights(p) {
+Cradle::Cradle(const CradleParameters& p, std::string_view who)
+    : FlightsBy(CradleFormulas<Bounded>(p), p) {
   const auto require = [&](const char* omega_name, double omega, const char* xi_name, double xi) {
     require_scale(who, omega_name, omega, 1e-30, 1e30);
     if (!(xi >= 0.0 && xi < 1.0))
@@ -28,7 +29,6 @@ Cradle::Cradle(const CradleParameters& p, std::string_view who) : Flights(p) {
   };
   require("omega1", p.omega1, "xi1", p.xi1);
   require("omega2", p.omega2, "xi2", p.xi2);
-  exact_ = CradleFormulas<Bounded>(p);
   require_positive(who, "t_end", p.t_end);
   if (const double fastest = std::max(p.omega1, p.omega2); p.t_end * fastest > largest_cradle_phase)
     refuse(who, "t_end", p.t_end, "omega1 t_end <= 1e12 and omega2 t_end <= 1e12",
@@ -46,21 +46,22 @@ Cradle::Cradle(const CradleParameters& p, std::string_view who) : Flights(p) {
 }
 
 long long Cradle::near_flight(double t) const {
-  const auto cycle = exact_.masses[0].half_period.value + exact_.masses[1].half_period.value;
-  const long double since = static_cast<long double>(t) + 0.5L * exact_.masses[0].half_period.value;
+  const auto cycle = formulas_.masses[0].half_period.value + formulas_.masses[1].half_period.value;
+  const long double since =
+      static_cast<long double>(t) + 0.5L * formulas_.masses[0].half_period.value;
   const auto cycles = std::floor(since / cycle);
   return 2 * static_cast<long long>(cycles) +
-         (since - cycles * cycle >= exact_.masses[0].half_period.value ? 1 : 0);
+         (since - cycles * cycle >= formulas_.masses[0].half_period.value ? 1 : 0);
 }
 
 model::Kinematics Cradle::envelope(double t) const {
   const auto k = flight_at(t, model::Side::left);
   const auto s = Bounded(t) - instant(k);
   const double v =
-      (exact_.speed(k) * exp(-(exact_.masses[std::size_t(k % 2)].sigma * s))).nearest();
+      (formulas_.speed(k) * exp(-(formulas_.masses[std::size_t(k % 2)].sigma * s))).nearest();
   model::Kinematics size{Eigen::VectorXd(2), Eigen::VectorXd(2), Eigen::VectorXd(2)};
   for (Eigen::Index j = 0; j < 2; ++j) {
-    const auto& mass = exact_.masses[std::size_t(j)];
+    const auto& mass = formulas_.masses[std::size_t(j)];
     const double omega = mass.omega.nearest();
     size.u[j] = v / mass.w.nearest();
     size.v[j] = size.u[j] * omega;
@@ -74,7 +75,8 @@ model::Kinematics Cradle::envelope(double t) const {
 // mass 2 for T1, then with mass 1 for T2, as in Meissner's equation, and may grow even undamped.
 double Cradle::perturbation_growth() const {
   const auto flow = [&](std::size_t mass, double T) {
-    const double w = exact_.masses[mass].w.nearest(), sigma = exact_.masses[mass].sigma.nearest();
+    const double w = formulas_.masses[mass].w.nearest(),
+                 sigma = formulas_.masses[mass].sigma.nearest();
     const double c = std::cos(w * T), n = std::sin(w * T) / w;
     const double square = w * w + sigma * sigma;
     Eigen::Matrix2d map;
@@ -85,7 +87,7 @@ double Cradle::perturbation_growth() const {
   const double half = 0.5 * map.trace(), rest = half * half - map.determinant();
   const double largest =
       rest > 0.0 ? std::abs(half) + std::sqrt(rest) : std::sqrt(map.determinant());
-  const double decay = (exact_.masses[0].decay + exact_.masses[1].decay).nearest();
+  const double decay = (formulas_.masses[0].decay + formulas_.masses[1].decay).nearest();
   return std::sqrt(std::max(1.0, largest * std::exp(decay)));
 }
 

@@ -14,7 +14,7 @@ namespace clackers::exact {
 ///     u_i = -+ V_k e^(-sigma_i s) sin(omega_Di s)/omega_Di,  V_(k+1) = V_k e^(-sigma_i T_i)
 ///
 /// Derivation: docs/manual/explanation/derivations/orbits.md.
-class Cradle : public Flights {
+class Cradle : public FlightsBy<Flights, CradleFormulas> {
  public:
   /// Throws InputError for parameters outside their ranges, and for a run in which a phase exceeds
   /// 1e12 rad, beyond which the error bound would no longer be small.
@@ -23,19 +23,13 @@ class Cradle : public Flights {
   model::Kinematics envelope(double t) const override;
 
   /// Length of a flight of mass `i` = 0 or 1 [s].
-  double flight_time(int i) const { return exact_.masses[std::size_t(i)].half_period.nearest(); }
+  double flight_time(int i) const { return formulas_.masses[std::size_t(i)].half_period.nearest(); }
   /// By how much a perturbation relative to the motion grows from one impact to the next in the long
   /// run, at least 1: that of the resting mass may grow, or decay more slowly than the motion.
   double perturbation_growth() const;
 
  protected:
-  Bounded instant(long long k) const override { return exact_.instant(k); }
-  States state(long long k, const Bounded& s) const override { return exact_.state(k, s); }
   long long near_flight(double t) const override;
-  Limits limits(long long k) const override { return exact_.limits(k); }
-
- private:
-  CradleFormulas<Bounded> exact_;
 };
 
 }  // namespace clackers::exact

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "clackers/exact/orbit/formulas.hpp"
 #include "clackers/model/impact_problem.hpp"
 #include "clackers/model/motion.hpp"
@@ -54,6 +56,24 @@ class Flights : public model::Motion {
 
   FlightsParameters parameters_;
   model::ImpactProblem<> problem_;
+};
+
+/// Of that kind of flights, by formulas.
+template <class Kind, template <class> class FormulasOf>
+class FlightsBy : public Kind {
+ protected:
+  using Bounded = numerics::Bounded;
+  template <class... Rest>
+  explicit FlightsBy(FormulasOf<Bounded> formulas, const Rest&... rest)
+      : Kind(rest...), formulas_(std::move(formulas)) {}
+
+  Bounded instant(long long k) const override { return formulas_.instant(k); }
+  StatesOf<Bounded> state(long long k, const Bounded& s) const override {
+    return formulas_.state(k, s);
+  }
+  LimitsOf<Bounded> limits(long long k) const override { return formulas_.limits(k); }
+
+  FormulasOf<Bounded> formulas_;
 };
 
 }  // namespace clackers::exact

@@ -16,9 +16,9 @@ std::array<std::complex<double>, 4> ForcedPair::floquet_multipliers() const {
   Matrix4d flight = Matrix4d::Zero(), R = Matrix4d::Identity();
   Vector4d before, after;
   const auto limit = limits(1);
-  const double m1 = orbit_.masses[0].m.nearest(), m2 = orbit_.masses[1].m.nearest();
+  const double m1 = formulas_.masses[0].m.nearest(), m2 = formulas_.masses[1].m.nearest();
   for (int i = 0; i < 2; ++i) {
-    const auto& mass = orbit_.masses[std::size_t(i)];
+    const auto& mass = formulas_.masses[std::size_t(i)];
     const double w = mass.w.nearest(), sigma = mass.sigma.nearest();
     const double e = std::exp(-sigma * T), c = std::cos(w * T), n = std::sin(w * T) / w;
     flight(i, i) = e * (c + sigma * n);
@@ -31,7 +31,7 @@ std::array<std::complex<double>, 4> ForcedPair::floquet_multipliers() const {
     after[i] = limit.after[index].v.nearest();
     after[i + 2] = limit.after[index].a.nearest();
   }
-  const double impulse = (1.0 + orbit_.eta) / (1.0 / m1 + 1.0 / m2);  // of unit gap rate
+  const double impulse = (1.0 + formulas_.eta) / (1.0 / m1 + 1.0 / m2);  // of unit gap rate
   R(2, 2) -= impulse / m1;
   R(2, 3) += impulse / m1;
   R(3, 2) += impulse / m2;

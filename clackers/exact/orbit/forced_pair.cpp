@@ -124,7 +124,7 @@ void ForcedPair::build(std::string_view who, const ForcedPairParameters& p) {
   require_scale(who, "V1", p.V1, 1e-30, 1e30);
   require_detuned(who, 1, p.omega1, p.sigma1, p.T);
   require_detuned(who, 2, p.omega2, p.sigma2, p.T);
-  orbit_ = narrowed_orbit(OrbitFormulas<Wide>(p));
+  formulas_ = narrowed_orbit(OrbitFormulas<Wide>(p));
 }
 
 void ForcedPair::build(std::string_view who, const BaseExcitedParameters& p) {
@@ -138,7 +138,7 @@ void ForcedPair::build(std::string_view who, const BaseExcitedParameters& p) {
     require_detuned(who, i, omega, 0.0, p.T);
     require_detuned(who, i, omega, p.T, cos(Wide(omega) * p.T * 0.5));
   }
-  orbit_ = narrowed_orbit(OrbitFormulas<Wide>(p));
+  formulas_ = narrowed_orbit(OrbitFormulas<Wide>(p));
 }
 
 // The gap starts at 0 and opens. |g''| and |g'''| are bounded for the whole flight, so the steps of first_root pass no
@@ -146,7 +146,7 @@ void ForcedPair::build(std::string_view who, const BaseExcitedParameters& p) {
 std::optional<ForcedPair::Closing> ForcedPair::closing() const {
   const double T = this->T(), speed = velocity(0) - velocity(1), nu = this->nu();
   double curvature = 0.0, third = 0.0, fastest = nu;
-  for (const auto& mass : orbit_.masses) {
+  for (const auto& mass : formulas_.masses) {
     const double square = mass.square().nearest(), own = std::sqrt(square);
     const double free = square * std::hypot(mass.P.nearest(), mass.Q.nearest());
     const double steady = nu * nu * std::hypot(mass.p0.nearest(), mass.p1.nearest());
@@ -155,10 +155,10 @@ std::optional<ForcedPair::Closing> ForcedPair::closing() const {
     fastest = std::max(fastest, own);
   }
   const auto bound = [&](double s) {
-    const auto mass1 = orbit_.mass_state(orbit_.masses[0], s),
-               mass2 = orbit_.mass_state(orbit_.masses[1], s);
+    const auto mass1 = formulas_.mass_state(formulas_.masses[0], s),
+               mass2 = formulas_.mass_state(formulas_.masses[1], s);
     numerics::LocalBound gap;
-    gap.value = ((mass1.u - mass2.u) - (orbit_.masses[0].D - orbit_.masses[1].D)).nearest();
+    gap.value = ((mass1.u - mass2.u) - (formulas_.masses[0].D - formulas_.masses[1].D)).nearest();
     gap.slope = (mass1.v - mass2.v).nearest();
     gap.second = (mass1.a - mass2.a).nearest();
     gap.curvature = curvature * (1.0 + 1e-9);
@@ -178,12 +178,12 @@ std::optional<ForcedPair::Closing> ForcedPair::closing() const {
 
 double ForcedPair::smallest_share() const {
   const double T = this->T(), speed = velocity(0) - velocity(1);
-  double least = std::min(1.0, 1.0 / orbit_.eta);
+  double least = std::min(1.0, 1.0 / formulas_.eta);
   for (int i = 1; i < instants; ++i) {
     const double s = T * i / instants;
-    const auto g =
-        (orbit_.mass_state(orbit_.masses[0], s).u - orbit_.mass_state(orbit_.masses[1], s).u) -
-        (orbit_.masses[0].D - orbit_.masses[1].D);
+    const auto g = (formulas_.mass_state(formulas_.masses[0], s).u -
+                    formulas_.mass_state(formulas_.masses[1], s).u) -
+                   (formulas_.masses[0].D - formulas_.masses[1].D);
     least = std::min(least, g.nearest() * T / (speed * s * (T - s)));
   }
   return least;
@@ -225,13 +225,15 @@ void ForcedPair::require_open(std::string_view who, const Parameters& p) const {
       "not-admissible");
 }
 
-ForcedPair::ForcedPair(const ForcedPairParameters& p, std::string_view who) : Flights(p) {
+ForcedPair::ForcedPair(const ForcedPairParameters& p, std::string_view who)
+    : FlightsBy(OrbitFormulas<Bounded>(), p) {
   build(who, p);
   require_open(who, p);
   make_problem(p.t_end);
 }
 
-ForcedPair::ForcedPair(const BaseExcitedParameters& p, std::string_view who) : Flights(p) {
+ForcedPair::ForcedPair(const BaseExcitedParameters& p, std::string_view who)
+    : FlightsBy(OrbitFormulas<Bounded>(), p) {
   build(who, p);
   require_open(who, p);
   make_problem(p.t_end);
@@ -240,11 +242,11 @@ ForcedPair::ForcedPair(const BaseExcitedParameters& p, std::string_view who) : F
 // F cos phi = m [(w^2 + sigma^2 - nu^2) p0 + 2 sigma nu p1] and -F sin phi the same of (p1, -p0), for
 // phases from an impact on; t = 0 is n half turns later.
 ForcedPair::Force ForcedPair::force(const Mass& mass) const {
-  const auto stiff = mass.square() - orbit_.nu * orbit_.nu,
-             damped = Bounded(2.0) * mass.sigma * orbit_.nu;
+  const auto stiff = mass.square() - formulas_.nu * formulas_.nu,
+             damped = Bounded(2.0) * mass.sigma * formulas_.nu;
   const auto cosine = mass.m * (stiff * mass.p0 + damped * mass.p1);
   const auto sine = mass.m * (stiff * mass.p1 - damped * mass.p0);
-  const bool turned = std::fmod(orbit_.n, 2.0) != 0.0;
+  const bool turned = std::fmod(formulas_.n, 2.0) != 0.0;
   const auto sign = turned ? -1.0L : 1.0L;
   return {static_cast<double>(std::hypot(cosine.value, sine.value)),
           static_cast<double>(std::atan2(-sign * sine.value, sign * cosine.value))};
@@ -255,7 +257,7 @@ void ForcedPair::make_problem(double t_end) {
   auto& system = problem_.system;
   system.mass = system.damping = system.stiffness = Eigen::MatrixXd::Zero(2, 2);
   for (int i = 0; i < 2; ++i) {
-    const auto& mass = orbit_.masses[std::size_t(i)];
+    const auto& mass = formulas_.masses[std::size_t(i)];
     system.mass(i, i) = mass.m.nearest();
     system.damping(i, i) = (Bounded(2.0) * mass.m * mass.sigma).nearest();
     system.stiffness(i, i) = (mass.m * mass.square()).nearest();
@@ -264,7 +266,7 @@ void ForcedPair::make_problem(double t_end) {
   }
   system.add_load = model::HarmonicLoad(std::move(forces));
   problem_.contacts = {{Eigen::Vector2d(1.0, -1.0),
-                        (orbit_.masses[0].D - orbit_.masses[1].D).nearest(), orbit_.eta}};
+                        (formulas_.masses[0].D - formulas_.masses[1].D).nearest(), formulas_.eta}};
   problem_.end = t_end;
   const auto start = at(0.0, model::Side::right);
   problem_.start = {0.0, start.u, start.v};
@@ -280,7 +282,7 @@ void ForcedPair::find_size() {
   size_ = {Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)};
   for (int i = 0; i <= instants; ++i)
     for (Eigen::Index j = 0; j < 2; ++j) {
-      const auto now = orbit_.mass_state(orbit_.masses[std::size_t(j)], T() * i / instants);
+      const auto now = formulas_.mass_state(formulas_.masses[std::size_t(j)], T() * i / instants);
       size_.u[j] = std::max(size_.u[j], std::abs(now.u.nearest()));
       size_.v[j] = std::max(size_.v[j], std::abs(now.v.nearest()));
       size_.a[j] = std::max(size_.a[j], std::abs(now.a.nearest()));

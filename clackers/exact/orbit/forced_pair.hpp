@@ -17,7 +17,7 @@ namespace clackers::exact {
 ///     p = (D - P) cos nu s + (V - w Q + sigma P)/nu sin nu s,
 ///
 /// which determines the force. Derivation: docs/manual/explanation/derivations/orbits.md.
-class ForcedPair : public Flights {
+class ForcedPair : public FlightsBy<Flights, OrbitFormulas> {
  public:
   /// Throws InputError for parameters outside their ranges; where an undamped frequency makes whole
   /// oscillations between impacts give or take 1e-4 rad (not-admissible); and
@@ -33,10 +33,10 @@ class ForcedPair : public Flights {
   /// fastest oscillation has 40 of them.
   model::Kinematics envelope(double t) const override;
 
-  double T() const { return orbit_.T.nearest(); }
-  double nu() const { return orbit_.nu.nearest(); }
+  double T() const { return formulas_.T.nearest(); }
+  double nu() const { return formulas_.nu.nearest(); }
   /// Just after an impact [m/s], of mass `i` = 0 or 1.
-  double velocity(int i) const { return orbit_.masses[std::size_t(i)].V.nearest(); }
+  double velocity(int i) const { return formulas_.masses[std::size_t(i)].V.nearest(); }
   /// Smallest gap over (V1 - V2) s (T - s)/T, the parabola of the same start: 1 and 1/eta at the ends.
   double margin() const { return margin_; }
   /// Eigenvalues of the linear map of perturbations from just after an impact to just after the next:
@@ -44,10 +44,7 @@ class ForcedPair : public Flights {
   std::array<std::complex<double>, 4> floquet_multipliers() const;
 
  protected:
-  Bounded instant(long long k) const override { return orbit_.instant(k); }
-  States state(long long k, const Bounded& s) const override { return orbit_.state(k, s); }
   long long near_flight(double t) const override;
-  Limits limits(long long k) const override { return orbit_.limits(k); }
 
  private:
   using Mass = OrbitFormulas<Bounded>::Mass;
@@ -58,7 +55,8 @@ class ForcedPair : public Flights {
     double at = 0.0, overlap = 0.0;
   };
 
-  explicit ForcedPair(const FlightsParameters& parameters) : Flights(parameters) {}
+  explicit ForcedPair(const FlightsParameters& parameters)
+      : FlightsBy(OrbitFormulas<Bounded>(), parameters) {}
   // What an orbit is, before its gap is looked at.
   void build(std::string_view who, const ForcedPairParameters& p);
   void build(std::string_view who, const BaseExcitedParameters& p);
@@ -70,7 +68,6 @@ class ForcedPair : public Flights {
   Force force(const Mass& mass) const;
   void make_problem(double t_end);
 
-  OrbitFormulas<Bounded> orbit_;
   double margin_ = 0.0;
   model::Kinematics size_;
 };

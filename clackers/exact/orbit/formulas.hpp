@@ -73,10 +73,32 @@ struct ForcedSliderParameters {
   double m = 1.0, k = 1.0, F = 0.4, P = 1.0, W = 0.8, end = 40.0;
 };
 
+/// A pendulum of length l [m] under gravity g [m/s^2], from rest at the angle theta0 [rad] above a stop.
+struct PendulumParameters {
+  double l = 1.0, g = 9.81, theta0 = 1.0, eta = 0.8, end = 10.0;
+};
+
+/// A mass on a spring of force k u + b u^3 [kg, N/m, N/m^3], from rest at u0 [m] above a stop.
+struct DuffingParameters {
+  double m = 1.0, k = 1.0, b = 1.0, u0 = 1.0, eta = 0.8, end = 20.0;
+};
+
+/// Two pendula that meet at their lowest points with opposite momenta: masses [kg], length of the first [m] and the
+/// angle where it starts at rest [rad].
+struct TwoPendulaParameters {
+  double m1 = 1.0, m2 = 1.0, l1 = 1.0, g = 9.81, theta1 = 1.0, end = 10.0;
+};
+
+/// Two pendula of equal mass that swing in turn.
+struct PendulumCradleParameters {
+  double l1 = 1.0, l2 = 0.8, g = 9.81, theta1 = 1.0, end = 10.0;
+};
+
 using FlightsParameters =
     std::variant<std::monostate, CradleParameters, ForcedPairParameters, BaseExcitedParameters,
                  CircleBilliardParameters, BallParameters, ObliqueDiskParameters, SliderParameters,
-                 BeltParameters, ForcedSliderParameters>;
+                 BeltParameters, ForcedSliderParameters, PendulumParameters, DuffingParameters,
+                 TwoPendulaParameters, PendulumCradleParameters>;
 
 /// Numbers of a type Real that bounds their errors.
 template <class Real>
