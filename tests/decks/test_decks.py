@@ -9,6 +9,9 @@ import zipfile
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
 from command import PROGRAM, CommandTest  # noqa: E402
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "peers"))
+import calculix  # noqa: E402
+
 
 def works(*command, source=""):
     """Whether a command is there and ends well."""
@@ -104,6 +107,10 @@ class Cvode(Deck):
 
 @unittest.skipUnless(shutil.which("ccx"), "needs calculix-ccx")
 class Calculix(Deck):
+    @classmethod
+    def setUpClass(cls):
+        calculix.on_one_processor()
+
     def test_contact_and_none(self):
         self.agrees("calculix", "stop")
         self.agrees("calculix", "sdof", "--set", "t_end=8")

@@ -1,8 +1,9 @@
 """CalculiX's direct dynamics of masses on springs of their own as a foreign solver; contacts are stiff springs."""
-import os
 import pathlib
-import subprocess
 import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "peers"))
+import calculix  # noqa: E402
 
 
 def read(path):
@@ -38,17 +39,6 @@ def deck(word):
     return "\n".join(lines) + "\n", n
 
 
-def rows_of(text, n):
-    """Rows of t, u1, v1, ... as printed in a .dat file."""
-    rows, kind, time = {}, "", ""
-    for words in (line.split() for line in text.splitlines()):
-        if words and words[0] in ("displacements", "velocities"):
-            kind, time = words[0][0], words[-1]
-        elif words:
-            rows.setdefault(time, {})[kind + words[0]] = words[1]
-    return [[t, *(row[f"{kind}{i + 1}"] for i in range(n) for kind in "dv")] for t, row in rows.items()]
-
-
 def main():
     for line in sys.stdin:
         path, *words = line.split()
@@ -57,9 +47,7 @@ def main():
         job.mkdir()
         text, n = deck(word)
         (job / "masses.inp").write_text(text, encoding="ascii")
-        subprocess.run(["ccx", "-i", "masses"], cwd=job, env={**os.environ, "OMP_NUM_THREADS": "1"}, check=True,
-                       stdout=subprocess.DEVNULL)
-        rows = rows_of((job / "masses.dat").read_text(encoding="ascii"), n)
+        rows = [[t, *(row[f"{kind}{i + 1}"] for i in range(n) for kind in "uv")] for t, row in calculix.run(job, "masses").items()]
         header = ",".join(["t", *(f"{kind}{i + 1}" for i in range(n) for kind in "uv")])
         pathlib.Path(path).write_text("\n".join([header, *(",".join(row) for row in rows), ""]), encoding="ascii")
 

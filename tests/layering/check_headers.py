@@ -7,6 +7,9 @@ header of ours that is not included. That <vector> and its like are included, by
 a header of ours that it includes, is looked up by name in a table. A lacking header of others that is
 not in the table is not found.
 
+A header on its own is one after others that it includes: a process takes a chain of headers, each of which includes the
+one before it.
+
 CACHE is a json file of the headers that passed, each with a digest of its text and of all headers of
 ours that it includes; only headers with another digest are checked.
 """
@@ -82,10 +85,34 @@ def lacking_others(header, root):
     return "".join(lines)
 
 
-def errors_of(header, root, command):
-    run = subprocess.run([*command, "-fsyntax-only", "-x", "c++", "-"], input=f'#include "{header.relative_to(root)}"\n',
-                         capture_output=True, text=True, cwd=root)
-    return lacking_others(header, root) + (run.stderr if run.returncode else "")
+def chains(headers, root):
+    """The fewest lists that hold all headers once, each header after one that it includes: a largest matching."""
+    below = {header: [other for other in closure(header, root, set()) if other != header and other in headers]
+             for header in headers}
+    above = {}
+
+    def place(header, seen):
+        for other in below[header]:
+            if other not in seen:
+                seen.add(other)
+                if other not in above or place(above[other], seen):
+                    above[other] = header
+                    return True
+        return False
+
+    for header in headers:
+        place(header, set())
+    for first in set(headers) - set(above.values()):
+        chain = [first]
+        while chain[-1] in above:
+            chain.append(above[chain[-1]])
+        yield chain
+
+
+def errors_of(chain, root, command):
+    includes = "".join(f'#include "{header.relative_to(root)}"\n' for header in chain)
+    run = subprocess.run([*command, "-fsyntax-only", "-x", "c++", "-"], input=includes, capture_output=True, text=True, cwd=root)
+    return "".join(lacking_others(header, root) for header in chain) + (run.stderr if run.returncode else "")
 
 
 def precompile(headers, folder, root, command):
@@ -109,15 +136,16 @@ def main(root, cache, *command):
         sys.exit(f"found only {len(digests)} headers below {root}")
     passed = json.loads(cache.read_text()) if cache.is_file() else {}
     changed = [header for header in headers if passed.get(str(header)) != digests[str(header)]]
-    found = {}
+    parts, failed = [], set()
     if changed:
         with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             command += precompile(headers, folder, root, command)
-            found = dict(zip(map(str, changed), pool.map(lambda header: errors_of(header, root, command), changed)))
-    cache.write_text(json.dumps({header: value for header, value in digests.items() if not found.get(header)}))
-    failed = [text for text in found.values() if text]
-    print("".join(failed), end="")
-    print(f"{len(digests)} headers, {len(changed)} compiled, {len(failed)} lack an include")
+            parts = list(chains(changed, root))
+            errors = list(pool.map(lambda chain: errors_of(chain, root, command), parts))
+            failed = {str(header) for chain, error in zip(parts, errors) if error for header in chain}
+            print("".join(errors), end="")
+    cache.write_text(json.dumps({header: value for header, value in digests.items() if header not in failed}))
+    print(f"{len(digests)} headers, {len(changed)} compiled in {len(parts)} processes" + (", an include is lacking" if failed else ""))
     sys.exit(1 if failed else 0)
 
 

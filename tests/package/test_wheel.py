@@ -17,8 +17,9 @@ PYTHON = "/usr/bin/python3"
 # No index and no settings of the user: whoever wants to download fails.
 OFFLINE = {**os.environ, "PIP_NO_INDEX": "1", "PIP_CONFIG_FILE": os.devnull, "PIP_DISABLE_PIP_VERSION_CHECK": "1",
            "PYTHONDONTWRITEBYTECODE": "1", "PYTHONNOUSERSITE": "1",
-           # What is tested here does not depend on optimization, which is most of the time of a build.
-           "CXXFLAGS": "-O0"}
+           # What is tested here does not depend on optimization, which is most of the time of a build. Clang then takes
+           # half of GCC's time.
+           "CC": "clang-14", "CXX": "clang++-14", "CXXFLAGS": "-O0"}
 FIVE_LINES = """
 import clackers
 case = clackers.case("three-parameter", N=2, xi1=0.05)
@@ -70,8 +71,7 @@ class Wheel(unittest.TestCase):
         sections = installed.run("readelf", "-SdW", path)
         self.assertNotRegex(sections, r"\.symtab|\.debug_|RUNPATH|RPATH")
         exported = [line.split()[-1] for line in installed.run("nm", "-D", "--defined-only", path).splitlines()]
-        self.assertEqual([name for name in exported if not name.startswith("_Z")], ["PyInit__core"])
-        self.assertEqual([name for name in exported if "8clackers" in name], [])
+        self.assertEqual(exported, ["PyInit__core"])
 
     def test_record_states_the_files(self):
         here = files()

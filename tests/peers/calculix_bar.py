@@ -2,9 +2,10 @@
     calculix_bar.py PROBLEM.json H HISTORY ALPHA"""
 import json
 import os
-import subprocess
 import sys
 import tempfile
+
+import calculix
 
 CORNERS = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))  # of a section, whose area is 1
 
@@ -39,18 +40,6 @@ def deck(mesh, p, step, alpha):
         "*NODE PRINT, NSET=LINE", "U, V", "*END STEP", ""])
 
 
-def rows_of(printed, nodes, start):
-    """Times with what each node has there, as printed."""
-    rows = {"0": {(q, i): start[q][node["dof"] - 1] for q in "uv" for i, node in enumerate(nodes)}}
-    for line in filter(str.strip, printed):
-        words = line.split()
-        if words[0] in ("displacements", "velocities"):
-            q, row = "v" if words[0] == "velocities" else "u", rows.setdefault(words[-1], {})
-        else:
-            row[q, int(words[0]) // 4] = words[1]
-    return rows
-
-
 def main(problem, h, history, alpha):
     with open(problem) as opened:
         file = json.load(opened)
@@ -59,14 +48,13 @@ def main(problem, h, history, alpha):
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "bar.inp"), "w") as out:
             out.write(deck(mesh, p, step, alpha))
-        subprocess.run(["ccx", "-i", "bar"], cwd=folder, check=True, stdout=sys.stderr, env={**os.environ, "OMP_NUM_THREADS": "1"})
-        with open(os.path.join(folder, "bar.dat")) as printed:
-            rows = rows_of(printed, mesh["nodes"], p["start"])
+        rows = calculix.run(folder, "bar")
     order = sorted(range(len(mesh["nodes"])), key=lambda i: mesh["nodes"][i]["dof"])
     with open(history, "w") as out:
         print("t", *(f"{q}{k + 1}" for q in "uv" for k in range(len(order))), sep=",", file=out)
+        print("0", *(p["start"][q][k] for q in "uv" for k in range(len(order))), sep=",", file=out)
         for t, row in rows.items():
-            print(t, *(row[q, i] for q in "uv" for i in order), sep=",", file=out)
+            print(t, *(row[f"{q}{4 * i + 1}"] for q in "uv" for i in order), sep=",", file=out)
 
 
 main(*sys.argv[1:])

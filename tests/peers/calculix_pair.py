@@ -1,6 +1,7 @@
 """Two masses on springs with a compression-only penalty spring between them, for CalculiX."""
 import os
-import subprocess
+
+import calculix
 
 
 def deck(pair, stiffness, step, end):
@@ -50,31 +51,11 @@ U, V
 """
 
 
-def rows_of(text):
-    """(t, u1, v1, u2, v2) as printed, from the text of a .dat file."""
-    rows, kind = {}, ""
-    for line in text.splitlines():
-        words = line.split()
-        if not words:
-            continue
-        if words[0] in ("displacements", "velocities"):
-            kind, time = words[0][0], words[-1]
-            rows.setdefault(time, {})
-        else:
-            rows[time][kind + words[0]] = words[1]
-    return [(t, row["d1"], row["v1"], row["d2"], row["v2"]) for t, row in rows.items()]
-
-
 def run(folder, pair, stiffness, step, end, history):
     """Writes the history of a run, with the digits that CalculiX prints."""
-    name = os.path.join(folder, "pair")
-    with open(name + ".inp", "w") as file:
+    with open(os.path.join(folder, "pair.inp"), "w") as file:
         file.write(deck(pair, stiffness, step, end))
-    environment = dict(os.environ, OMP_NUM_THREADS="1")
-    subprocess.run(["ccx", "-i", "pair"], cwd=folder, env=environment, check=True,
-                   stdout=subprocess.DEVNULL)
-    with open(name + ".dat") as file:
-        rows = rows_of(file.read())
+    rows = calculix.run(folder, "pair")
     with open(history, "w") as file:
         file.write("t u1 v1 u2 v2\n")
-        file.writelines("  ".join(row) + "\n" for row in rows)
+        file.writelines("  ".join([t, row["u1"], row["v1"], row["u2"], row["v2"]]) + "\n" for t, row in rows.items())

@@ -2,6 +2,7 @@
 import shutil
 import unittest
 
+import calculix
 import calculix_pair
 from peers import PeerTest, pair, runs
 
@@ -10,6 +11,10 @@ CASE = ("--set", "xi1=0")
 
 @unittest.skipUnless(shutil.which("ccx"), "needs calculix-ccx")
 class Calculix(PeerTest):
+    @classmethod
+    def setUpClass(cls):
+        calculix.on_one_processor()
+
     def setUp(self):
         super().setUp()
         self.pair = pair("xi1=0")
