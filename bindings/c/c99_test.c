@@ -21,7 +21,7 @@ static void ask(const clackers_motion* motion) {
   clackers_constant constant = {sizeof constant, NULL, NULL, NULL, 0.0};
   int32_t dof = 0;
   int64_t impacts = 0;
-  size_t constants = 0;
+  size_t constants = 0, contacts = 0, springs = 0, frictions = 0;
 
   EXPECT(clackers_motion_dof(motion, &dof) == CLACKERS_OK && dof == 2);
   EXPECT(clackers_motion_end(motion, &end) == CLACKERS_OK && end == 20.0);
@@ -32,6 +32,9 @@ static void ask(const clackers_motion* motion) {
   EXPECT(clackers_motion_impact_count(motion, end, &impacts) == CLACKERS_OK && impacts == 6);
   EXPECT(clackers_motion_impact(motion, 1, &impact, &out, &out) == CLACKERS_OK && u[0] == 0.0);
   EXPECT(impact.index == 1 && impact.t_lo <= impact.t && impact.t <= impact.t_hi);
+  EXPECT(clackers_motion_force_count(motion, &contacts, &springs, &frictions) == CLACKERS_OK);
+  EXPECT(contacts == 1 && springs == 0 && frictions == 0);
+  EXPECT(clackers_motion_forces(motion, 1.0, CLACKERS_LEFT, 1, u) == CLACKERS_OK && u[0] == 0.0);
   EXPECT(clackers_motion_constant_count(motion, &constants) == CLACKERS_OK && constants > 10);
   EXPECT(clackers_motion_constant_at(motion, 0, &constant) == CLACKERS_OK);
   EXPECT(constant.name != NULL && strcmp(constant.name, "m1") == 0 && constant.value == 1.0);

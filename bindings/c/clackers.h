@@ -144,6 +144,19 @@ CLACKERS_API clackers_status clackers_motion_envelope(const clackers_motion* mot
 CLACKERS_API clackers_status clackers_motion_error_bound(const clackers_motion* motion, double t,
                                                          const clackers_buffers* out);
 
+/** The number of forces: of contacts, then of one-sided springs, then of dry friction. */
+CLACKERS_API clackers_status clackers_motion_force_count(const clackers_motion* motion,
+                                                         size_t* contacts, size_t* springs,
+                                                         size_t* frictions);
+
+/**
+ * The forces at t [N], along their directions: of contacts that stay closed and of one-sided springs in
+ * compression, 0 for open ones, then of dry friction. `capacity` doubles must hold them all.
+ */
+CLACKERS_API clackers_status clackers_motion_forces(const clackers_motion* motion, double t,
+                                                    clackers_side side, size_t capacity,
+                                                    double* forces);
+
 /* -- Impacts ---------------------------------------------------------------------------------- */
 
 typedef struct clackers_impact {

@@ -20,6 +20,7 @@ struct TimeGrid {
   /// The time number k of `size()` [s].
   double at(long long k) const;
   long long size() const;
+  double latest() const;  ///< 0 without any [s]
 };
 
 /// `n` equally spaced times over [0, end], both ends included. Throws InputError unless
@@ -54,9 +55,10 @@ bool accumulates(const model::Motion& motion);
 /// the rows. Throws InputError as respond() does.
 std::unique_ptr<record::RowSource> energies(const cases::Case& test_case, const TimeGrid& grid);
 
-/// The forces of contacts that stay closed, then of one-sided springs, 0 for open ones, and of dry friction
-/// [N]: t,side[,force1,...][,friction1,...] at the times of respond(). The case must outlive the rows.
-/// Throws InputError as respond() does, and for a case without any of them (no-closed-form).
+/// The forces of contacts that stay closed, then of one-sided springs, 0 for open ones [N]; their impulses from t = 0 on,
+/// impacts among them [N s]; the forces of dry friction [N]: t,side[,force1,...,impulse1,...][,friction1,...] at the times
+/// of respond(). An impulse is integrated to the rounding of the largest momentum. The case must outlive the rows. Throws
+/// InputError as respond() does, for a case without any of them (no-closed-form) and for more than 1e6 impacts.
 std::unique_ptr<record::RowSource> forces(const cases::Case& test_case, const TimeGrid& grid);
 
 /// The motion of a case's bars at places x [m], from -L1 (the far end of the left one of two) or 0 (the

@@ -243,7 +243,8 @@ void add_respond(Grammar& root) {
   app->add_flag(
       "--forces", options->forces,
       "At the times, the forces of contacts that stay closed, then of one-sided springs, instead: "
-      "force1, force2, ... [N], 0 for open ones; then those of dry friction: friction1, ... [N].");
+      "force1, force2, ... [N], 0 for open ones; their impulses so far, with those of impacts: impulse1, ... [N s]; then "
+      "the forces of dry friction: friction1, ... [N].");
   app->add_option(
          "--at", options->at,
          "At the times, points of the case's bars or string instead, at x from the contact [m] (of "

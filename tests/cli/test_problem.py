@@ -138,7 +138,7 @@ frequency = 0
         self.assertRegex(shown, r"\nsprings +1 .*\nspring_contacts +[1-9]")
         times = ("--problem", self.file, "--step", "0.05")
         forces = self.rows_of("respond", *times, "--forces")
-        self.assertEqual(list(forces[0]), ["t", "side", "force1", "force2"])
+        self.assertEqual(list(forces[0]), ["t", "side", "force1", "force2", "impulse1", "impulse2"])
         states = self.rows_of("respond", *times)
         pressed = held = 0
         for force, state in zip(forces, states):

@@ -385,13 +385,13 @@ class Case:
         Returns
         -------
         Table
-            Columns t, side, force1 and so on, 0 for open contacts, then friction1 and so on [N]. Two rows at impacts as
-            in ``energies``.
+            Columns t, side, force1 and so on, 0 for open contacts [N], impulse1 and so on from t = 0 on, those of impacts
+            among them [N s], then friction1 and so on [N]. Two rows at impacts as in ``energies``.
 
         Raises
         ------
         InputError
-            As ``response`` does, and for a case without any of them.
+            As ``response`` does, for a case without any of them, and for more than 1e6 impacts.
 
         Examples
         --------

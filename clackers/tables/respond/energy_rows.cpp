@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <memory>
 
 #include "clackers/exact/quantities/energy.hpp"
@@ -40,9 +39,7 @@ std::unique_ptr<record::RowSource> energies(const cases::Case& test_case, const 
   require_inside(test_case, grid);
   if (const auto* motion = exact::as_closed_form(*test_case.motion))
     return rows_of(test_case, grid, std::make_shared<const exact::EnergyAccount>(*motion), false);
-  double last = grid.size() > 0 ? grid.at(grid.size() - 1) : 0.0;
-  for (const double t : grid.times) last = std::max(last, t);
-  const auto balance = std::make_shared<const EnergyBalance>(test_case, last);
+  const auto balance = std::make_shared<const EnergyBalance>(test_case, grid.latest());
   return rows_of(test_case, grid, balance, balance->has_work());
 }
 

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "clackers/base/testing/refusal.hpp"
+#include "clackers/exact/flights/piecewise_motion.hpp"
+#include "clackers/model/problem_file.hpp"
 #include "clackers/study/testing/toy_motion.hpp"
 #include "clackers/tables/case_summary.hpp"
 
@@ -200,6 +204,59 @@ TEST(Summary, HasTheForcesOfContactsThatStayClosed) {
     largest = std::max(largest, forces[0]);
   }
   EXPECT_GT(largest, 1.0);
+}
+
+// What the loads leave of the momenta is what the contacts gave: by springs, impacts, infinitely many of them, and rest.
+TEST(Forces, ImpulsesBalanceTheMomenta) {
+  const auto expect = [](const cases::Case& test_case, const std::vector<std::string>& impulses) {
+    const auto grid = grid_of(81, test_case.motion->end());
+    const auto rows = forces(test_case, grid), states = respond(test_case, grid);
+    const auto names = column_names(*rows);
+    const auto& p = test_case.problem;
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(test_case.motion->dof());
+    p.system.add_load(0.0, {load.data(), std::size_t(load.size())});
+    std::vector<record::Cell> row, state;
+    double largest = 0.0;
+    while (rows->next(row)) {
+      ASSERT_TRUE(states->next(state));
+      const double t = std::get<double>(row[0]);
+      // From the upper mass down: an impulse pushes one up and the next one down.
+      double above = 0.0;
+      for (auto i = load.size(); i-- > 0;) {
+        const double v = std::get<double>(state[std::size_t(3 * i + 3)]);
+        above += p.system.mass(i, i) * (v - p.start.v[i]) - load[i] * t;
+        const auto place = std::ranges::find(names, impulses[std::size_t(i)]) - names.begin();
+        EXPECT_NEAR(std::get<double>(row[std::size_t(place)]), above, 1e-12 * (1.0 + above))
+            << i << " at " << t;
+        largest = std::max(largest, above);
+      }
+    }
+    EXPECT_GT(largest, 10.0);
+  };
+  expect(cases::make("ball"), {"impulse1"});
+  const auto stack = [](const char* floor, const char* between) {
+    cases::Case test_case;
+    test_case.entry = &toy_entry;
+    test_case.problem = model::problem_from_text(
+        fmt::format("M = [[2, 0], [0, 1]]\nK = [[0, 0], [0, 0]]\nend = 3\n[start]\nu = [0.3, 0.8]\n"
+                    "[[contacts]]\ndirection = [1, 0]\n{}\n[[contacts]]\ndirection = [-1, 1]\n{}\n"
+                    "[[loads]]\ndof = 1\namplitude = -20\nfrequency = 0\n"
+                    "[[loads]]\ndof = 2\namplitude = -12\nfrequency = 0\n",
+                    floor, between),
+        "stack");
+    test_case.motion = std::make_shared<exact::PiecewiseMotion>(test_case.problem);
+    return test_case;
+  };
+  // The floor holds mass 1 while mass 2 falls on it, once or infinitely many times.
+  expect(stack("restitution = 0", "restitution = 0"), {"impulse1", "impulse2"});
+  expect(stack("restitution = 0", "restitution = 0.5"), {"impulse1", "impulse2"});
+  // Springs follow contacts.
+  expect(stack("stiffness = 300", "restitution = 0"), {"impulse2", "impulse1"});
+}
+
+TEST(Forces, OfMoreImpactsThanAreListedAreRefused) {
+  EXPECT_REFUSED(forces(cases::make("stop", {{"t_end", 1e7}}), grid_of(3, 1e7)), "out-of-range",
+                 "at most 1000000 impacts");
 }
 
 TEST(Points, OfMassesAreRefusedWithAllCasesThatHaveThem) {

@@ -1,9 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "clackers/base/error.hpp"
-#include "clackers/model/harmonic_load.hpp"
 #include "clackers/tables/case_summary.hpp"
 #include "clackers/tables/respond.hpp"
 #include "clackers/tables/respond/timed_rows.hpp"
@@ -50,48 +46,6 @@ std::unique_ptr<record::RowSource> respond(const cases::Case& test_case, const T
   return std::make_unique<TimedRows>(
       motion, grid, "clackers/response/1", "Exact response of " + test_case.entry->name,
       response_columns(motion.dof()), block, States{motion, {}, {}, {}});
-}
-
-std::unique_ptr<record::RowSource> forces(const cases::Case& test_case, const TimeGrid& grid) {
-  const auto& problem = test_case.problem;
-  const auto* springs = model::one_sided_springs(problem);
-  const auto contacts = std::ssize(problem.contacts), frictions = std::ssize(problem.frictions),
-             compliant = springs != nullptr ? std::ssize(springs->contacts()) : 0;
-  if (contacts + compliant + frictions == 0)
-    throw InputError(
-        fmt::format(
-            "respond: forces are those of contacts, one-sided springs and dry friction; {} "
-            "has none of them{}.",
-            test_case.entry->name,
-            problem.has_unstated_impacts() ? " but impacts, whose impulses --impacts has" : ""),
-        "no-closed-form");
-  require_inside(test_case, grid);
-  std::vector<record::Column> columns;
-  for (int i = 1; i <= contacts + compliant; ++i)
-    columns.push_back(
-        {fmt::format("force{}", i), "N",
-         i <= contacts ? fmt::format("of contact {} while it stays closed, along its direction", i)
-                       : fmt::format("of one-sided spring {} in compression, along its direction",
-                                     i - contacts)});
-  for (int i = 1; i <= frictions; ++i)
-    columns.push_back({fmt::format("friction{}", i), "N", "of dry friction, along its direction"});
-  const auto& motion = *test_case.motion;
-  return std::make_unique<TimedRows>(
-      motion, grid, "clackers/forces/1", "Contact forces of " + test_case.entry->name, columns, 64,
-      one_by_one([&motion, springs, contacts, frictions](double t, model::Side side, double* row) {
-        const auto now = motion.contact_forces(t, side);
-        const auto add = [&](Eigen::Index first, Eigen::Index count) {
-          for (Eigen::Index i = first; i < first + count; ++i)
-            *row++ = now.size() > 0 ? now[i] : 0.0;
-        };
-        add(0, contacts);
-        if (springs != nullptr) {
-          const auto u = motion.at(t, side).u;
-          for (std::size_t j = 0; j < springs->contacts().size(); ++j)
-            *row++ = std::max(0.0, -springs->stiffnesses()[j] * springs->contacts()[j].gap_at(u));
-        }
-        add(contacts, frictions);
-      }));
 }
 
 record::CaseRecord response_record(const cases::Case& test_case) {

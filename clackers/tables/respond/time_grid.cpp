@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,6 +30,11 @@ double TimeGrid::at(long long k) const {
 
 long long TimeGrid::size() const {
   return times.empty() ? count : static_cast<long long>(times.size());
+}
+
+double TimeGrid::latest() const {
+  if (times.empty()) return count > 0 ? at(count - 1) : 0.0;
+  return *std::ranges::max_element(times);
 }
 
 TimeGrid grid_of(long long n, double end) {
