@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -61,6 +62,33 @@ TEST(OtherParameter, IsFoundWithItsValueBesideNoise) {
         EXPECT_EQ(found[0].fact("files"), double(count));
         EXPECT_GE(found[0].fact("gain"), 100.0);
       }
+}
+
+TEST(OtherParameter, OfAContactOfAProblemFileIsFound) {
+  const auto made = [](const char* contact) {
+    const auto path = ::testing::TempDir() + "/contact.toml";
+    std::ofstream(path)
+        << "M = [[1, 0], [0, 1]]\nK = [[2, -1], [-1, 1]]\nC = [[0.02, 0], [0, 0.02]]\nend = 20\n"
+           "[start]\nu = [0.5, 1]\n[[contacts]]\ndirection = [0, 1]\n"
+        << contact << "\n";
+    return cases::make("piecewise", {{"problem", path}});
+  };
+  const auto expect = [&](const char* contact, const char* other, const std::string& text,
+                          double value) {
+    const auto problem = made(contact), solved = made(other);
+    for (const int count : {1, 2}) {
+      const auto found = causes_in(problem, solved, count);
+      ASSERT_EQ(codes(found), "parameter-differs") << text;
+      EXPECT_EQ(found[0].text, text);
+      EXPECT_NEAR(found[0].value, value, 2.0 * found[0].fact("uncertainty"));
+    }
+  };
+  expect("gap = 0.1\nstiffness = 200", "gap = 0.1\nstiffness = 220",
+         "stiffness of one-sided spring 1", 220.0);
+  expect("gap = 0.1\nstiffness = 200", "gap = 0.12\nstiffness = 200", "gap of one-sided spring 1",
+         0.12);
+  expect("gap = 0.1\nrestitution = 0.8", "gap = 0.12\nrestitution = 0.8", "gap of contact 1", 0.12);
+  EXPECT_EQ(codes(causes_in(made("stiffness = 200"), made("stiffness = 200"), 2)), "");
 }
 
 TEST(OtherParameter, ParametersThatExplainAsMuchAreAllNamed) {

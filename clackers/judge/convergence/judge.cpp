@@ -88,7 +88,8 @@ bool stopped_by_printing(const LadderFit& fit, const measure::RunScore& finest,
 // Whether errors that grow as steps shrink are rounding: of a method that divides differences of displacements
 // by h squared, the square of the number of steps times 2^-52.
 bool is_growing_rounding(const LadderFit& fit, const measure::Ladder& ladder) {
-  if (fit.reason != Code("error-growth").name()) return false;
+  if (fit.reason != Code("error-growth").name() && fit.reason != Code("too-few-levels").name())
+    return false;
   return std::ranges::all_of(ladder, [](const measure::ScoreLevel& level) {
     return std::ranges::all_of(level.runs, [](const measure::RunScore& run) {
       const double steps = run.rounding_floor / 0x1p-52;

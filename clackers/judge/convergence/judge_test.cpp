@@ -147,6 +147,13 @@ TEST(Judge, RoundingThatGrowsIsExactWhereThatIsClaimed) {
   EXPECT_EQ(judge(growing(1.0), exact).verdict, Verdict::agrees);
   EXPECT_EQ(judge(growing(100.0), exact).verdict, Verdict::disagrees);
   EXPECT_EQ(judge(growing(1.0), second).displacement.behaviour, Behaviour::divergent);
+  // Of coarse steps it may rise above the floor, below which it is then.
+  const auto late = scores(
+      [](double h) { return 0x1p-52 * (20.0 / h) * rounding_slack * std::pow(h / 0.02, 0.1); },
+      {.levels = 8});
+  EXPECT_EQ(judge(late, second).reason, "too-few-levels");
+  EXPECT_EQ(judge(late, exact).displacement.behaviour, Behaviour::exact);
+  EXPECT_EQ(judge(late, exact).verdict, Verdict::agrees);
 }
 
 TEST(Judge, AnOrderWithinATenthAgrees) {

@@ -15,17 +15,10 @@ void refuse_by(const std::string& name, diagnose::Diagnosis found) {
                    diagnose::find_cause(found.code)->code);
 }
 
-cases::Settings changed(cases::Settings values,
-                        std::span<const diagnose::CaseParameter> parameters) {
-  for (const auto& parameter : parameters)
-    for (auto& [known, number] : values)
-      if (known == parameter.name) number = parameter.value;
-  return values;
-}
-
 // "N=5,xi1=0.25"; empty where no parameters start the case so.
 std::string settings_of(const diagnose::FirstRows& opening, const cases::Case& problem) {
   std::string settings;
+  if (is_of_a_file(problem)) return settings;
   for (const auto& parameter :
        diagnose::start_parameters(opening, problem.problem, *problem.motion, family_of(problem)))
     settings +=
@@ -34,23 +27,6 @@ std::string settings_of(const diagnose::FirstRows& opening, const cases::Case& p
 }
 
 }  // namespace
-
-diagnose::CaseFamily family_of(const cases::Case& problem) {
-  diagnose::CaseFamily family;
-  for (std::size_t i = 0; i < problem.values.size(); ++i)
-    if (const auto& [name, value] = problem.values[i]; !value.is_word())
-      family.parameters.push_back({name, value, problem.entry->parameters[i].unit});
-  family.motion_of =
-      [&problem](
-          std::span<const diagnose::CaseParameter> values) -> std::shared_ptr<const model::Motion> {
-    try {
-      return cases::make(problem.entry->name, changed(problem.values, values)).motion;
-    } catch (const InputError&) {
-      return nullptr;
-    }
-  };
-  return family;
-}
 
 void refuse_start(const std::string& name, const diagnose::FirstRows& opening,
                   const cases::Case& problem, const StartDifference& most) {
