@@ -45,7 +45,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"larger-than-motion", "reason",
      "The error is as large as the motion itself, so that nothing follows it yet. Use smaller steps, well below the fastest period."},
     {"simultaneous-impacts", "reason",
-     "Several contacts close at one instant, and the method finds them one after the other. Impacts one by one end in another motion than the impacts of one instant, whatever the step. Use a treatment that solves all contacts of a step together, such as moreau-jean."},
+     "Several contacts act at one instant, and the method finds them one after the other. Impacts one by one end in another motion than the impacts of one instant, whatever the step. Use a treatment that solves all contacts of a step together, such as moreau-jean. Between bodies that touch rounding decides: with a small gap the reference, too, takes them one by one."},
     {"one-sample-a-level", "reason",
      "There is one step a level, and the errors go up and down: scatter cannot be distinguished from order. "
      "Add three steps between each two, in the ratio 2^(1/4) (h, h/1.19, h/1.41, h/1.68, h/2)."},

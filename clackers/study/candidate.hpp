@@ -23,7 +23,7 @@ class SharedRuns;
 struct StudyCase {
   cases::Case problem;
   record::CaseSummary summary;
-  std::optional<measure::SharedInstant> shared;   ///< the first of the reference
+  std::vector<measure::SharedInstant> shared;     ///< those of the reference
   std::shared_ptr<measure::SharedStates> states;  ///< of the reference; may be null
   std::shared_ptr<const measure::Scales> scales;  ///< of errors; may be null
   std::shared_ptr<SharedRuns> runs;               ///< of methods that run alike; may be null

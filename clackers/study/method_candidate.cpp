@@ -80,7 +80,7 @@ record::Subject subject_of(const methods::Method& method, const StudyCase& probl
     subject.treatment = terms[1];
   }
   subject.claim =
-      methods::claim_on(facts, problem.problem.problem, collides, problem.shared.has_value());
+      methods::claim_on(facts, problem.problem.problem, collides, !problem.shared.empty());
   if (facts.is_adaptive) {
     subject.refined_by = record::RefinementParameter::tolerance;
     // The estimate falls with the power of the step that the error over a run does.

@@ -252,13 +252,13 @@ void SubjectStudy::assess(const record::RefinementPlan& plan) {
 }
 
 std::optional<measure::SharedImpacts> SubjectStudy::shared_impacts() const {
-  if (!problem_.shared) return {};
+  if (problem_.shared.empty()) return {};
   for (auto level = levels_.rbegin(); level != levels_.rend(); ++level)
     for (auto made = level->runs.rbegin(); made != level->runs.rend(); ++made) {
       const auto& run = (*made)->measured.run;
       if (run.metrics.empty() && run.error_history.t.empty()) continue;
-      return measure::at_shared_instant(*problem_.shared, problem_.problem.problem.start.t,
-                                        run.error_history.t, run.error_history.y);
+      return measure::at_shared_instants(problem_.shared, problem_.problem.problem.start.t,
+                                         run.error_history.t, run.error_history.y);
     }
   return {};
 }

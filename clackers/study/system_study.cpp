@@ -32,7 +32,7 @@ std::unique_ptr<SubjectStudy> SystemStudy::study_of(const Subject& subject) cons
         plan_for(request_.plan, problem_.summary, LadderKind::solvers));
   const Extras extras{.record = false, .times = request_.times};
   // Impacts of one instant are judged by the errors around it.
-  const Wanted shown{.history_bins = problem_.shared ? history_bins : 0,
+  const Wanted shown{.history_bins = problem_.shared.empty() ? 0 : history_bins,
                      .metrics = request_.metrics};
   return std::make_unique<SubjectStudy>(
       problem_,

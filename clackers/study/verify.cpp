@@ -286,7 +286,7 @@ record::CaseRecord case_record(const VerifyRequest& request, CaseStudy& study) {
 
 StudyCase study_case(cases::Case problem) {
   auto summary = tables::summary_of(problem);
-  auto shared = measure::first_shared_instant(*problem.motion, problem.problem);
+  auto shared = measure::shared_instants(*problem.motion, problem.problem);
   auto states = std::make_shared<measure::SharedStates>(problem.motion, problem.problem.start.t);
   auto scales =
       std::make_shared<const measure::Scales>(measure::scales_of(*problem.motion, problem.problem));

@@ -94,6 +94,20 @@ class Simultaneous(CommandTest):
         self.assertEqual(subject["assessment"]["reason"], "simultaneous-impacts")
         self.assertEqual(done.returncode, 1)
 
+    def test_balls_that_touch_err_by_impacts_and_not_by_their_steps(self):
+        balls = range(5)
+        identity = [[float(i == j) for j in balls] for i in balls]
+        contacts = "".join(f"[[contacts]]\ndirection = {[float(j == i + 1) - float(j == i) for j in balls]}\n" for i in range(4))
+        with open(self.path("balls.toml"), "w") as file:
+            file.write(f"M = {identity}\nK = {identity}\nend = 20\n[start]\nu = [-1, 0, 0, 0, 0]\n{contacts}")
+        done = run("verify", "rk4", "newmark", "--problem", self.path("balls.toml"), "--format", "json")
+        for subject in json.loads(done.stdout)["cases"][0]["subjects"]:
+            self.assertEqual(subject["assessment"]["reason"], "simultaneous-impacts", subject["name"])
+            [seen] = [found["numbers"] for found in subject["assessment"]["evidence"]]
+            self.assertEqual(seen[1], 4)
+            self.assertLess(seen[2], 1e-3)
+            self.assertGreater(seen[3], 0.5)
+
     def test_the_table_of_the_manual_shows_what_treatments_do(self):
         with open(PAGE) as file:
             lines = [[cell.strip(" `") for cell in line.strip("|\n ").split("|")]

@@ -131,8 +131,10 @@ std::vector<Evidence> of_the_fit(const LadderFit& fit, const measure::Ladder& la
   if (fit.coincident_share >= least_reported_share)
     note("commensurate-steps", {fit.coincident_share});
   if (fit.cancel_step > 0.0) note("errors-cancel", {fit.cancel_step});
-  if (fit.stable_step > 0.0) note("unstable-coarse-steps", {fit.stable_step});
-  if (fit.reason == Code("simultaneous-impacts").name() && facts.shared)
+  const bool shared = fit.reason == Code("simultaneous-impacts").name() && facts.shared;
+  // Errors as large as the motion grow and fall by chance.
+  if (fit.stable_step > 0.0 && !shared) note("unstable-coarse-steps", {fit.stable_step});
+  if (shared)
     note("simultaneous-impacts", {facts.shared->instant.t, double(facts.shared->instant.contacts),
                                   facts.shared->error_before, facts.shared->error_after});
   const bool unresolved = fit.reason == Code("contact-not-resolved").name();

@@ -24,44 +24,14 @@ bool share_masses(std::span<const int> contacts, const model::ImpactProblem<>& p
   return ((coupling.array().abs() / (size * size.transpose()).array()) > rounding).any();
 }
 
-}  // namespace
-
-std::optional<SharedInstant> first_shared_instant(const model::Motion& reference,
-                                                  const model::ImpactProblem<>& problem) {
-  constexpr long long most_impacts = 1000;
-  if (problem.contacts.size() < 2) return {};
-  const auto count = std::min(reference.impact_count(reference.end()), most_impacts);
-  std::optional<numerics::Cholesky> mass;
-  std::vector<int> contacts;
-  double first = 0.0, hi = -std::numeric_limits<double>::infinity();
-  const auto found = [&]() -> bool {
-    if (contacts.size() < 2) return false;
-    if (!mass) mass.emplace(problem.system.mass);
-    return share_masses(contacts, problem, *mass);
-  };
-  for (long long k = 1; k <= count; ++k) {
-    const auto impact = reference.impact(k);
-    if (impact.when.lo > hi) {
-      if (found()) break;
-      contacts.clear();
-      first = impact.t;
-    }
-    contacts.push_back(impact.contact);
-    hi = std::max(hi, impact.when.hi);
-  }
-  if (!found()) return {};
-  return SharedInstant{first, int(contacts.size())};
-}
-
-std::optional<SharedImpacts> at_shared_instant(const SharedInstant& instant, double start,
-                                               std::span<const double> times,
-                                               std::span<const std::vector<double>> errors) {
-  if (times.size() < 2) return {};
+// What the error does at an instant, up to `until`.
+std::optional<SharedImpacts> at_instant(const SharedInstant& instant, double until,
+                                        std::span<const double> times,
+                                        std::span<const std::vector<double>> errors) {
   SharedImpacts found{.instant = instant};
   // Of an interval only the middle is known; the shortest distance is its length.
   double width = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < times.size(); ++i) width = std::min(width, times[i] - times[i - 1]);
-  const double until = instant.t + (instant.t - start);
   bool is_before_known = false, is_after_known = false;
   for (std::size_t i = 0; i < times.size(); ++i) {
     double error = 0.0;
@@ -76,6 +46,56 @@ std::optional<SharedImpacts> at_shared_instant(const SharedInstant& instant, dou
   }
   if (!is_before_known || !is_after_known) return {};
   return found;
+}
+
+}  // namespace
+
+std::vector<SharedInstant> shared_instants(const model::Motion& reference,
+                                           const model::ImpactProblem<>& problem) {
+  constexpr long long most_impacts = 1000;
+  std::vector<SharedInstant> all;
+  if (problem.contacts.size() < 2) return all;
+  const auto count = std::min(reference.impact_count(reference.end()), most_impacts);
+  const numerics::Cholesky mass(problem.system.mass);
+  const auto closed = reference.closed_contacts();
+  std::vector<int> contacts;
+  double first = 0.0, hi = -std::numeric_limits<double>::infinity();
+  const auto add = [&] {
+    if (contacts.empty()) return;
+    for (const auto& one : closed)
+      if (one.from < first && first <= one.until && !std::ranges::count(contacts, one.contact))
+        contacts.push_back(one.contact);
+    if (contacts.size() > 1 && share_masses(contacts, problem, mass))
+      all.push_back({first, int(contacts.size())});
+  };
+  for (long long k = 1; k <= count; ++k) {
+    const auto impact = reference.impact(k);
+    if (impact.when.lo > hi) {
+      add();
+      contacts.clear();
+      first = impact.t;
+    }
+    contacts.push_back(impact.contact);
+    hi = std::max(hi, impact.when.hi);
+  }
+  add();
+  return all;
+}
+
+std::optional<SharedImpacts> at_shared_instants(std::span<const SharedInstant> instants,
+                                                double start, std::span<const double> times,
+                                                std::span<const std::vector<double>> errors) {
+  if (times.size() < 2) return {};
+  std::optional<SharedImpacts> first;
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const double next =
+        i + 1 < instants.size() ? instants[i + 1].t : std::numeric_limits<double>::infinity();
+    const auto found =
+        at_instant(instants[i], std::min(next, 2.0 * instants[i].t - start), times, errors);
+    if (found && comes_from_shared_impacts(*found)) return found;
+    if (i == 0) first = found;
+  }
+  return first;
 }
 
 bool comes_from_shared_impacts(const SharedImpacts& found) {

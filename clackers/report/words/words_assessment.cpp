@@ -193,7 +193,7 @@ std::string evidence_sentence(const record::Subject& subject, const judge::Evide
                        text(2, 15), text(3, 15));
   if (is("simultaneous-impacts"))
     return fmt::format(
-        "At t = {} s, where {} contacts close at once, the error in u goes from {} to {}.", text(0),
+        "At t = {} s, where {} contacts act at once, the error in u goes from {} to {}.", text(0),
         text(1), scientific(number(2)), scientific(number(3)));
   // A cause of another system says it with its number.
   if (is("wrong-limit"))
