@@ -24,6 +24,7 @@ struct StudyCase {
   cases::Case problem;
   record::CaseSummary summary;
   std::vector<measure::SharedInstant> shared;     ///< those of the reference
+  double closest_impacts = 0.0;                   ///< of the reference [s]
   std::shared_ptr<measure::SharedStates> states;  ///< of the reference; may be null
   std::shared_ptr<const measure::Scales> scales;  ///< of errors; may be null
   std::shared_ptr<SharedRuns> runs;               ///< of methods that run alike; may be null

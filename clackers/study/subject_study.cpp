@@ -271,6 +271,7 @@ void SubjectStudy::decide() {
   judge::JudgeContext facts{.contact_time = subject_.contact_time,
                             .tolerance = subject_.tolerance,
                             .shared = shared_impacts(),
+                            .closest_impacts = problem_.closest_impacts,
                             .by_tolerance = by_tolerance()};
   const auto& motion = *problem_.problem.motion;
   for (const auto& [step, made] : runs_) {

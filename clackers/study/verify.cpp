@@ -287,11 +287,17 @@ record::CaseRecord case_record(const VerifyRequest& request, CaseStudy& study) {
 StudyCase study_case(cases::Case problem) {
   auto summary = tables::summary_of(problem);
   auto shared = measure::shared_instants(*problem.motion, problem.problem);
+  const double closest = measure::closest_impacts(*problem.motion, problem.problem);
   auto states = std::make_shared<measure::SharedStates>(problem.motion, problem.problem.start.t);
   auto scales =
       std::make_shared<const measure::Scales>(measure::scales_of(*problem.motion, problem.problem));
-  return {std::move(problem), std::move(summary), std::move(shared),
-          std::move(states),  std::move(scales),  std::make_shared<SharedRuns>()};
+  return {std::move(problem),
+          std::move(summary),
+          std::move(shared),
+          closest,
+          std::move(states),
+          std::move(scales),
+          std::make_shared<SharedRuns>()};
 }
 
 record::RefinementPlan checked_plan(const RefinementRequest& request, const StudyCase& problem,

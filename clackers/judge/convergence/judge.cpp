@@ -292,6 +292,24 @@ Assessment judge(const measure::Ladder& ladder, const Claim& claim, const JudgeC
       first > found.displacement.first_level && is_of_impacts &&
       compare(found.displacement, claim, facts) != Verdict::agrees)
     found.displacement = from_level(ladder, first, of_displacement, found.displacement);
+  if (facts.closest_impacts > 0.0 && !facts.by_tolerance && claim.order > 0.0 &&
+      shows_a_line(found.displacement) &&
+      compare(found.displacement, claim, facts) != Verdict::agrees) {
+    // Methods of irregular order are late by up to a step at each impact.
+    const double longest =
+        (claim.behaviour == Behaviour::irregular ? 1.0 / 32.0 : 2.0) * facts.closest_impacts;
+    const auto is_resolved = [&](const measure::ScoreLevel& level) {
+      return level.step <= longest;
+    };
+    const int first = int(std::ranges::find_if(ladder, is_resolved) - ladder.begin());
+    if (std::ssize(ladder) - first < shortest_window) {
+      found.displacement.behaviour = Behaviour::undecided;
+      found.displacement.has_line = found.displacement.on_envelope = false;
+      found.displacement.reason = Code("too-few-levels").name();
+    } else if (first > found.displacement.first_level) {
+      found.displacement = from_level(ladder, first, of_displacement, found.displacement);
+    }
+  }
   // Coarse steps whose errors fall faster hide an envelope of lower order, and those whose errors are as
   // large as impacts make them one of higher order, where the finer half shows it.
   constexpr std::ptrdiff_t least_levels = 5;

@@ -71,6 +71,8 @@ struct JudgeContext {
   bool noise = false;  ///< a floor of the runs is noise, as their rows show
   /// Where contacts that share masses close together, if they do, and what the error does there.
   std::optional<measure::SharedImpacts> shared{};
+  /// Longer steps may take impacts in another order [s]; measure::closest_impacts().
+  double closest_impacts = 0.0;
   /// The ladder is one of tolerances of an adaptive solver: `step` of a run is its tolerance.
   bool by_tolerance = false;
 };
@@ -111,8 +113,11 @@ struct JudgeContext {
 /// Where a line, an envelope or an unexplained floor above `large_error` does not agree, it is that of the
 /// levels behind those at which more than a quarter of the runs miscount impacts with errors above
 /// `large_error`, but for a finest level of that
-/// kind. Where an envelope that is claimed does not agree, that of the finer half of the levels counts: if
-/// it no longer falls too fast, or if its whole interval is above the slope of all levels and it agrees.
+/// kind. Where one does not agree, levels of steps longer than twice the time between impacts that take part in each
+/// other (closest_impacts), or than a 32nd of it where irregular convergence is claimed, do not count either; with less
+/// than four others it is undecided [too-few-levels]. Where an envelope that is claimed does not agree, that of the finer
+/// half of the levels counts: if it no longer falls too fast, or if its whole interval is above the slope of all levels
+/// and it agrees.
 ///
 /// Verdict on the claim: `not claimed` without a claim; `undecided` where the behaviour is, where an
 /// exact motion met a claim of some order (nothing above rounding to measure it on), where printed

@@ -137,6 +137,27 @@ TEST(Judge, FasterDisplacementsAgreeWhereVelocitiesAreAsClaimed) {
   EXPECT_EQ(velocities_of(1.0), Verdict::disagrees);
 }
 
+// Until steps are shorter than the time between impacts their order is won and lost.
+TEST(Judge, StepsLongerThanBetweenImpactsDoNotCount) {
+  const auto error = [](double h) {
+    return h > 2e-3 ? std::sqrt(h) * (1.0 + 0.5 * std::sin(1.0 / h)) : 50.0 * h * h;
+  };
+  const JudgeContext close{.closest_impacts = 1e-3};
+  EXPECT_EQ(judge(scores(error, {.levels = 7}), second, {}).verdict, Verdict::disagrees);
+  const auto few = judge(scores(error, {.levels = 7}), second, close);
+  EXPECT_EQ(few.verdict, Verdict::undecided);
+  EXPECT_EQ(few.reason, "too-few-levels");
+  const auto enough = judge(scores(error, {.levels = 10}), second, close);
+  EXPECT_EQ(enough.verdict, Verdict::agrees);
+  EXPECT_NEAR(enough.displacement.order, 2.0, 0.01);
+  // What agrees needs no such steps, and a lower order stays one.
+  EXPECT_EQ(judge(scores(power(2.0), {.levels = 5}), second, close).verdict, Verdict::agrees);
+  EXPECT_EQ(judge(scores(power(1.0), {.levels = 10}), second, close).verdict, Verdict::disagrees);
+  // Those of an irregular method are a 32nd of it.
+  EXPECT_EQ(judge(scores(power(0.5), {.levels = 7}), rough, close).verdict, Verdict::undecided);
+  EXPECT_EQ(judge(scores(power(0.5), {.levels = 15}), rough, close).verdict, Verdict::disagrees);
+}
+
 // Rounding of second differences: 2^-52 of the displacement over the square of the step.
 TEST(Judge, RoundingThatGrowsIsExactWhereThatIsClaimed) {
   const auto growing = [](double factor) {

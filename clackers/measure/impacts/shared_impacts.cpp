@@ -1,6 +1,7 @@
 #include "clackers/measure/impacts/shared_impacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -9,6 +10,8 @@
 
 namespace clackers::measure {
 namespace {
+
+constexpr long long most_impacts = 1000;
 
 // Whether an impulse at one of these contacts changes the gap rate of another.
 bool share_masses(std::span<const int> contacts, const model::ImpactProblem<>& problem,
@@ -52,7 +55,6 @@ std::optional<SharedImpacts> at_instant(const SharedInstant& instant, double unt
 
 std::vector<SharedInstant> shared_instants(const model::Motion& reference,
                                            const model::ImpactProblem<>& problem) {
-  constexpr long long most_impacts = 1000;
   std::vector<SharedInstant> all;
   if (problem.contacts.size() < 2) return all;
   const auto count = std::min(reference.impact_count(reference.end()), most_impacts);
@@ -80,6 +82,27 @@ std::vector<SharedInstant> shared_instants(const model::Motion& reference,
   }
   add();
   return all;
+}
+
+double closest_impacts(const model::Motion& reference, const model::ImpactProblem<>& problem) {
+  if (problem.contacts.size() < 2) return 0.0;
+  const auto count = std::min(reference.impact_count(reference.end()), most_impacts);
+  std::vector<model::MotionImpact> impacts;
+  double largest = 0.0;
+  for (long long k = 1; k <= count; ++k) {
+    impacts.push_back(reference.impact(k));
+    largest = std::max(largest, impacts.back().impulse);
+  }
+  const numerics::Cholesky mass(problem.system.mass);
+  double closest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < impacts.size(); ++k) {
+    const auto &one = impacts[k - 1], &next = impacts[k];
+    if (next.when.lo > one.when.hi && next.t - one.t < closest && one.contact != next.contact &&
+        std::min(one.impulse, next.impulse) >= 0.1 * largest &&
+        share_masses(std::array{one.contact, next.contact}, problem, mass))
+      closest = next.t - one.t;
+  }
+  return std::isfinite(closest) ? closest : 0.0;
 }
 
 std::optional<SharedImpacts> at_shared_instants(std::span<const SharedInstant> instants,

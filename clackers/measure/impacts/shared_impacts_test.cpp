@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "clackers/exact/assembly/assemblies.hpp"
@@ -48,6 +49,30 @@ TEST(SharedImpacts, AreThoseBesideContactsThatAreHeld) {
     EXPECT_EQ(found[i].contacts, 4);
     EXPECT_NEAR(found[i].t, 1.5707963267948966 * double(2 * i + 1), 1e-14);
   }
+}
+
+// The middle one of three balls is struck by the first and strikes the last one a little later.
+TEST(SharedImpacts, ClosestImpactsTakePartInEachOther) {
+  model::ImpactProblem<> balls;
+  balls.system.mass = balls.system.stiffness = Eigen::MatrixXd::Identity(4, 4);
+  balls.system.damping = Eigen::MatrixXd::Zero(4, 4);
+  balls.start = {0.0, -Eigen::VectorXd::Unit(4, 0), Eigen::VectorXd::Zero(4)};
+  balls.end = 4.0;
+  const auto add = [&](int i, double gap) {
+    balls.contacts.push_back(
+        {Eigen::VectorXd::Unit(4, i + 1) - Eigen::VectorXd::Unit(4, i), gap, 1.0});
+  };
+  add(0, 0.0);
+  add(1, -0.001);
+  // The second one leaves with a speed of 1, sin(t) = 0.001.
+  const exact::PiecewiseMotion motion(balls);
+  EXPECT_NEAR(closest_impacts(motion, balls), std::asin(0.001), 1e-12);
+  // Neither another impact of the same contact nor a much weaker one counts, nor one between other masses.
+  balls.contacts.resize(1);
+  EXPECT_EQ(closest_impacts(exact::PiecewiseMotion(balls), balls), 0.0);
+  add(2, -0.5);
+  balls.start.u[2] = -0.2;
+  EXPECT_EQ(closest_impacts(exact::PiecewiseMotion(balls), balls), 0.0);
 }
 
 TEST(SharedImpacts, ErrorsAreLargestBeforeAndInAsMuchTimeAfter) {
