@@ -166,7 +166,7 @@ typedef struct clackers_impact {
   double t;             /**< the double nearest to the true instant [s] */
   double t_lo, t_hi;    /**< interval that certainly holds the true instant [s] */
   double impulse;       /**< [N s] */
-  double energy_before; /**< of the whole structure [J] */
+  double energy_before; /**< kinetic and elastic, of all masses and springs [J] */
   double energy_after;
 } clackers_impact;
 

@@ -317,6 +317,18 @@ TEST(RestingContacts, PressedAndTouchingStartsHaveTheAnswerOfTheImpactLaw) {
   const auto after = motion.impact(1).after.v;
   EXPECT_NEAR((after - Eigen::Vector3d(1, -2, -2) / 3.0).cwiseAbs().maxCoeff(), 0.0, 1e-14);
   EXPECT_EQ(motion.closed_contacts().size(), 1u);
+  // The loads alone would close the second contact; the force of the first one opens it.
+  model::ImpactProblem<> lever;
+  lever.system.mass = MatrixXd::Identity(2, 2);
+  lever.system.damping = lever.system.stiffness = MatrixXd::Zero(2, 2);
+  lever.system.add_load = model::HarmonicLoad({{0, -1.0, 0.0, 0.0}, {1, 0.5, 0.0, 0.0}});
+  lever.contacts = {{Eigen::Vector2d(1, 0), 0.0, 0.0}, {Eigen::Vector2d(1, 1), 0.0, 0.5}};
+  lever.start = {0.0, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  lever.end = 2.0;
+  const PiecewiseMotion opened(lever);
+  EXPECT_EQ(opened.closed_contacts().size(), 1u);
+  EXPECT_EQ(opened.at(2.0, Side::left).u[0], 0.0);
+  EXPECT_NEAR(opened.at(2.0, Side::left).u[1], 1.0, 1e-15);
 }
 
 model::ImpactProblem<> random_resting(Box& box) {

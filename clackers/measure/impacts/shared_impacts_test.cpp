@@ -70,6 +70,7 @@ TEST(SharedImpacts, ClosestImpactsTakePartInEachOther) {
   // Neither another impact of the same contact nor a much weaker one counts, nor one between other masses.
   balls.contacts.resize(1);
   EXPECT_EQ(closest_impacts(exact::PiecewiseMotion(balls), balls), 0.0);
+  balls.end = 8.0;
   add(2, -0.5);
   balls.start.u[2] = -0.2;
   EXPECT_EQ(closest_impacts(exact::PiecewiseMotion(balls), balls), 0.0);

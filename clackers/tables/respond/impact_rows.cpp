@@ -28,8 +28,8 @@ std::vector<record::Column> impact_columns(const cases::Case& test_case) {
         {fmt::format("v{}+", i), "m/s", fmt::format("velocity of mass {} just after", i)});
   }
   columns.push_back({"impulse", "N s", "of the contact"});
-  columns.push_back({"energy_before", "J", "of the whole structure"});
-  columns.push_back({"energy_after", "J", "of the whole structure"});
+  columns.push_back({"energy_before", "J", "kinetic and elastic, of all masses and springs"});
+  columns.push_back({"energy_after", "J", "kinetic and elastic, of all masses and springs"});
   for (auto& column : columns) column.kind = record::ColumnKind::real;
   columns.front().kind = record::ColumnKind::whole;
   if (names_contact) columns[2].kind = record::ColumnKind::whole;
