@@ -43,7 +43,7 @@ struct MotionImpact {
   Kinematics before;                               ///< left limits
   Kinematics after;                                ///< right limits
   double impulse = 0.0;                            ///< along the contact's direction [N s]
-  double energy_before = 0.0, energy_after = 0.0;  ///< kinetic and elastic, of all masses and springs [J]
+  double energy_before = 0.0, energy_after = 0.0;  ///< kinetic and elastic, of everything [J]
 };
 
 /// A contact that stays closed for a while and carries a force.
