@@ -11,6 +11,7 @@
 #include "clackers/base/constants.hpp"
 #include "clackers/judge/convergence/claim_comparison.hpp"
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
+#include "clackers/judge/convergence/fit/window.hpp"
 #include "clackers/judge/convergence/ladder_fit.hpp"
 
 namespace clackers::judge {
