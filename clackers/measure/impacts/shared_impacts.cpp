@@ -13,19 +13,28 @@ namespace {
 
 constexpr long long most_impacts = 1000;
 
-// Whether an impulse at one of these contacts changes the gap rate of another.
-bool share_masses(std::span<const int> contacts, const model::ImpactProblem<>& problem,
-                  const numerics::Cholesky& mass) {
-  Eigen::MatrixXd rows(problem.dof(), Eigen::Index(contacts.size()));
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    rows.col(Eigen::Index(i)) = problem.contacts[std::size_t(contacts[i])].direction;
-  Eigen::MatrixXd coupling = rows.transpose() * mass.solve(rows);
-  const Eigen::VectorXd size = coupling.diagonal().cwiseSqrt();
-  coupling.diagonal().setZero();
-  // Orthogonal rows leave n products' rounding; any real coupling is far larger.
-  const double rounding = 16.0 * double(rows.rows()) * std::numeric_limits<double>::epsilon();
-  return ((coupling.array().abs() / (size * size.transpose()).array()) > rounding).any();
-}
+// Whether an impulse at one of some contacts changes the gap rate of another. The mass is factorized when it is needed.
+class Coupling {
+ public:
+  explicit Coupling(const model::ImpactProblem<>& problem) : problem_(problem) {}
+
+  bool share_masses(std::span<const int> contacts) {
+    if (!mass_) mass_.emplace(problem_.system.mass);
+    Eigen::MatrixXd rows(problem_.dof(), Eigen::Index(contacts.size()));
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      rows.col(Eigen::Index(i)) = problem_.contacts[std::size_t(contacts[i])].direction;
+    Eigen::MatrixXd coupling = rows.transpose() * mass_->solve(rows);
+    const Eigen::VectorXd size = coupling.diagonal().cwiseSqrt();
+    coupling.diagonal().setZero();
+    // Orthogonal rows leave n products' rounding; any real coupling is far larger.
+    const double rounding = 16.0 * double(rows.rows()) * std::numeric_limits<double>::epsilon();
+    return ((coupling.array().abs() / (size * size.transpose()).array()) > rounding).any();
+  }
+
+ private:
+  const model::ImpactProblem<>& problem_;
+  std::optional<numerics::Cholesky> mass_;
+};
 
 // What the error does at an instant, up to `until`.
 std::optional<SharedImpacts> at_instant(const SharedInstant& instant, double until,
@@ -58,7 +67,7 @@ std::vector<SharedInstant> shared_instants(const model::Motion& reference,
   std::vector<SharedInstant> all;
   if (problem.contacts.size() < 2) return all;
   const auto count = std::min(reference.impact_count(reference.end()), most_impacts);
-  const numerics::Cholesky mass(problem.system.mass);
+  Coupling coupling(problem);
   const auto closed = reference.closed_contacts();
   std::vector<int> contacts;
   double first = 0.0, hi = -std::numeric_limits<double>::infinity();
@@ -67,7 +76,7 @@ std::vector<SharedInstant> shared_instants(const model::Motion& reference,
     for (const auto& one : closed)
       if (one.from < first && first <= one.until && !std::ranges::count(contacts, one.contact))
         contacts.push_back(one.contact);
-    if (contacts.size() > 1 && share_masses(contacts, problem, mass))
+    if (contacts.size() > 1 && coupling.share_masses(contacts))
       all.push_back({first, int(contacts.size())});
   };
   for (long long k = 1; k <= count; ++k) {
@@ -93,13 +102,13 @@ double closest_impacts(const model::Motion& reference, const model::ImpactProble
     impacts.push_back(reference.impact(k));
     largest = std::max(largest, impacts.back().impulse);
   }
-  const numerics::Cholesky mass(problem.system.mass);
+  Coupling coupling(problem);
   double closest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 1; k < impacts.size(); ++k) {
     const auto &one = impacts[k - 1], &next = impacts[k];
     if (next.when.lo > one.when.hi && next.t - one.t < closest && one.contact != next.contact &&
         std::min(one.impulse, next.impulse) >= 0.1 * largest &&
-        share_masses(std::array{one.contact, next.contact}, problem, mass))
+        coupling.share_masses(std::array{one.contact, next.contact}))
       closest = next.t - one.t;
   }
   return std::isfinite(closest) ? closest : 0.0;

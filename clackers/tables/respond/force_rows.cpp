@@ -7,7 +7,6 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/model/forces.hpp"
-#include "clackers/model/harmonic_load.hpp"
 #include "clackers/tables/respond/running_integral.hpp"
 #include "clackers/tables/respond/timed_rows.hpp"
 
@@ -25,7 +24,7 @@ class ContactImpulses {
   ContactImpulses(const cases::Case& test_case, double until)
       : motion_(*test_case.motion), zero_(VectorXd::Zero(count_of(test_case.problem))) {
     add_impacts(test_case, until);
-    if (motion_.closed_contacts().empty() && model::one_sided_springs(test_case.problem) == nullptr)
+    if (motion_.closed_contacts().empty() && model::force_counts(test_case.problem).springs == 0)
       return;
     std::vector<double> breaks;
     for (const auto& impact : impacts_) breaks.push_back(impact.t);
