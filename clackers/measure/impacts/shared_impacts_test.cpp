@@ -68,6 +68,11 @@ TEST(SharedImpacts, ClosestImpactsTakePartInEachOther) {
   const exact::PiecewiseMotion motion(balls);
   EXPECT_NEAR(closest_impacts(motion, balls), std::asin(0.001), 1e-12);
   // Neither another impact of the same contact nor a much weaker one counts, nor one between other masses.
+  auto light = balls;
+  light.system.mass(2, 2) = light.system.stiffness(2, 2) = 0.01;
+  const exact::PiecewiseMotion weak(light);
+  EXPECT_GE(weak.impact_count(light.end), 2);
+  EXPECT_EQ(closest_impacts(weak, light), 0.0);
   balls.contacts.resize(1);
   EXPECT_EQ(closest_impacts(exact::PiecewiseMotion(balls), balls), 0.0);
   balls.end = 8.0;

@@ -65,5 +65,12 @@ TEST(TimeGrid, RefusesStepsThatAreNotPositiveOrLongerThanTheRun) {
   EXPECT_REFUSED(grid_every(INFINITY, 20.0), "not-finite");
 }
 
+TEST(TimeGrid, LatestIsThatOfTimesInAnyOrder) {
+  EXPECT_EQ((TimeGrid{0.0, 0, 0.0, {1.0, 3.0, 2.0}}).latest(), 3.0);
+  EXPECT_EQ(grid_of(4, 0.7).latest(), 0.7);
+  EXPECT_EQ(grid_every(0.3, 1.0).latest(), 3.0 * 0.3);
+  EXPECT_EQ(TimeGrid{}.latest(), 0.0);
+}
+
 }  // namespace
 }  // namespace clackers::tables
