@@ -13,7 +13,7 @@
 #include "clackers/judge/convergence/claim_comparison.hpp"
 #include "clackers/judge/convergence/judge.hpp"
 #include "clackers/judge/convergence/step_ladder.hpp"
-#include "clackers/study/check/initial_state.hpp"
+#include "clackers/study/check/case_family.hpp"
 
 namespace clackers::study {
 namespace {

@@ -14,7 +14,7 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/diagnose/diagnose.hpp"
 #include "clackers/judge/convergence/judge.hpp"
-#include "clackers/study/check/initial_state.hpp"
+#include "clackers/study/check/case_family.hpp"
 
 namespace clackers::diagnose::testing {
 

@@ -1,3 +1,5 @@
+#include "clackers/study/check/case_family.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 #include "clackers/base/error.hpp"
 #include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/model/harmonic_load.hpp"
-#include "clackers/study/check/initial_state.hpp"
 
 namespace clackers::study {
 namespace {

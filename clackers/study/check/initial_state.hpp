@@ -28,13 +28,6 @@ StartDifference start_difference(const FirstRow& row, const cases::Case& problem
 /// smaller.
 inline constexpr double start_tolerance = 1e-3;
 
-/// Whether a case is a problem file, none of whose numbers is a parameter.
-bool is_of_a_file(const cases::Case& problem);
-
-/// The parameters of a case that are numbers, of a problem file those of its contacts, and its motions. The case must
-/// outlive it.
-diagnose::CaseFamily family_of(const cases::Case& problem);
-
 /// Refuses a history that starts from another state than the case (InputError). The message of file
 /// `name` says the number that differs most, and why with its cure where that is found: parameters of
 /// the case that start it so (not-this-case), or a cause of diagnose_start() with its code.

@@ -4,6 +4,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/diagnose/start_parameters.hpp"
+#include "clackers/study/check/case_family.hpp"
 
 namespace clackers::study {
 namespace {
