@@ -58,15 +58,20 @@ Ball largest(const Vector& x) {
   return most;
 }
 
+// The entries of n velocities.
+Vector velocities(const Vector& y, std::size_t n) {
+  return {y.begin() + long(n), y.begin() + long(2 * n)};
+}
+
 // The forces of `rate` become accelerations.
-void accelerate(Vector& rate, const Vector& inverse_mass, std::size_t n) {
-  const auto forces = rate.begin() + long(n);
-  std::ranges::copy(product(inverse_mass, {forces, forces + long(n)}), forces);
+void accelerate(Vector& rate, const Vector& mobility, std::size_t n) {
+  std::ranges::copy(product(mobility, velocities(rate, n)), rate.begin() + long(n));
 }
 
 }  // namespace
 
-BallFlights::BallFlights(const model::ImpactProblem<>& problem)
+BallFlights::BallFlights(const model::ImpactProblem<>& problem,
+                         const std::vector<std::size_t>& held)
     : problem_(problem),
       springs_(model::one_sided_springs(problem)),
       n_(std::size_t(problem.dof())) {
@@ -79,7 +84,7 @@ BallFlights::BallFlights(const model::ImpactProblem<>& problem)
     for (std::size_t j = 0; j < n_; ++j) mass.emplace_back(s.mass(long(i), long(j)));
     identity[i * n_ + i] = 1.0;
   }
-  inverse_mass_ = solved(mass, identity);
+  inverse_mass_ = mobility_ = solved(mass, identity);
   for (std::size_t i = 0; springs_ != nullptr && i < springs_->contacts().size(); ++i)
     closed_.push_back(springs_->contacts()[i].gap_at(problem.start.u) < 0.0);
   find_rate();
@@ -96,6 +101,62 @@ BallFlights::BallFlights(const model::ImpactProblem<>& problem)
     y_[2 * n_ + 1 + 2 * j] = cos(phase);
     y_[2 * n_ + 2 + 2 * j] = sin(phase);
   }
+  if (!held.empty()) hold(held);
+}
+
+bool BallFlights::is_held(std::size_t i) const { return std::ranges::count(held_, i) > 0; }
+
+// Displacements and velocities of the pivots are what the others make them.
+void BallFlights::hold(const std::vector<std::size_t>& contacts) {
+  held_ = contacts;
+  constraint_.reset();
+  mobility_ = inverse_mass_;
+  if (!held_.empty()) {
+    std::vector<model::Contact<>> closed;
+    for (const auto i : held_) closed.push_back(contact(i));
+    const auto& c =
+        constraint_.emplace(closed, n_, [](const Ball& x) { return std::abs(x.middle()); });
+    mobility_ = constrained_mobility();
+    for (std::size_t k = 0; k < held_.size(); ++k) {
+      Ball u = c.gaps[k], v;
+      for (std::size_t i = 0; i < n_; ++i) {
+        if (c.is_pivot[i]) continue;
+        u = u - c.shares[k][i] * y_[i];
+        v = v - c.shares[k][i] * y_[n_ + i];
+      }
+      y_[c.pivots[k]] = u;
+      y_[n_ + c.pivots[k]] = v;
+    }
+  }
+  find_rate();
+}
+
+// S (S' M S)^-1 S', where the columns of S are the motions with held contacts.
+Vector BallFlights::constrained_mobility() const {
+  const auto free = n_ - held_.size();
+  Vector basis(free * n_), reduced, mobility(n_ * n_);
+  for (std::size_t i = 0, row = 0; i < n_; ++i) {
+    if (constraint_->is_pivot[i]) continue;
+    basis[row * n_ + i] = 1.0;
+    for (std::size_t k = 0; k < held_.size(); ++k)
+      basis[row * n_ + constraint_->pivots[k]] = -constraint_->shares[k][i];
+    ++row;
+  }
+  if (free == 0) return mobility;
+  const auto column = [&](std::size_t c) {
+    return Vector(basis.begin() + long(c * n_), basis.begin() + long((c + 1) * n_));
+  };
+  Vector mass;
+  for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t j = 0; j < n_; ++j) mass.emplace_back(problem_.system.mass(long(i), long(j)));
+  for (std::size_t c = 0; c < free; ++c)
+    for (const auto& entry : product(basis, product(mass, column(c)))) reduced.push_back(entry);
+  const auto responses = solved(reduced, basis);
+  for (std::size_t c = 0; c < free; ++c)
+    for (std::size_t i = 0; i < n_; ++i)
+      for (std::size_t j = 0; j < n_; ++j)
+        mobility[i * n_ + j] = mobility[i * n_ + j] + basis[c * n_ + i] * responses[c * n_ + j];
+  return mobility;
 }
 
 const model::Contact<>& BallFlights::contact(std::size_t i) const {
@@ -136,14 +197,14 @@ void BallFlights::find_rate() {
     entry(cosine, cosine + 1) = -f.frequency;
     entry(cosine + 1, cosine) = f.frequency;
   }
-  Vector absolute_inverse;
-  for (const auto& m : inverse_mass_) absolute_inverse.push_back(upper(m));
+  Vector absolute_mobility;
+  for (const auto& m : mobility_) absolute_mobility.push_back(upper(m));
   // The largest rate of any entry for entries of `columns` that are at most 1.
   const auto norm = [&](std::size_t columns) {
     Vector most(size_);
     for (std::size_t i = 0; i < size_; ++i)
       for (std::size_t j = 0; j < columns; ++j) most[i] = most[i] + upper(entry(i, j));
-    accelerate(most, absolute_inverse, n_);
+    accelerate(most, absolute_mobility, n_);
     return largest(most);
   };
   // A power of 2, and the same for all regimes, so that a state may go on in another.
@@ -159,7 +220,7 @@ void BallFlights::find_rate() {
 
 Vector BallFlights::rate(const Vector& y) const {
   auto rate = product(rate_, y);
-  accelerate(rate, inverse_mass_, n_);
+  accelerate(rate, mobility_, n_);
   return rate;
 }
 
@@ -219,18 +280,34 @@ Ball BallFlights::gap(std::size_t i, const Vector& y, std::size_t first) const {
   return sum;
 }
 
+// What holds the contact closed, over unit_: of B' p = M a - f the rows of the pivots.
+Ball BallFlights::force(std::size_t held, const Vector& y) const {
+  const auto forces = velocities(product(rate_, y), n_), a = product(mobility_, forces);
+  const auto j = std::size_t(std::ranges::find(held_, held) - held_.begin());
+  Ball sum;
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    const auto pivot = constraint_->pivots[k];
+    Ball lacking = -forces[pivot];
+    for (std::size_t i = 0; i < n_; ++i)
+      lacking = lacking + a[i] * problem_.system.mass(long(pivot), long(i));
+    sum = sum + constraint_->inverse[k][j] * lacking;
+  }
+  return sum;
+}
+
 // Newton's method of intervals.
-bool BallFlights::end(const std::vector<std::size_t>& contacts, double lo, double hi) {
-  const auto first = contacts.front();
-  Ball s = Ball(lo) - t_;
-  const Ball last = Ball(hi) - t_;
+bool BallFlights::end(const exact::PiecewiseMotion::Event& event) {
+  const auto first = event.contacts.front();
+  Ball s = Ball(event.when.lo) - t_;
+  const Ball last = Ball(event.when.hi) - t_;
   arb_union(s.get(), s.get(), last.get(), WorkingBits::now());
   for (bool is_narrower = true; is_narrower;) {
     const Ball to = middle(s);
-    const auto there = advanced(y_, to);
-    const Ball slope = gap(first, advanced(there, s - to), n_) * unit_;
+    const auto there = advanced(y_, to), near = advanced(there, s - to);
+    const Ball value = is_held(first) ? force(first, there) : gap(first, there, 0);
+    const Ball slope = is_held(first) ? force(first, rate(near)) : gap(first, near, n_) * unit_;
     if (slope.holds_zero()) return false;
-    const Ball next = to - gap(first, there, 0) / slope;
+    const Ball next = to - value / slope;
     Ball both;
     if (arb_intersection(both.get(), s.get(), next.get(), WorkingBits::now()) == 0) return false;
     is_narrower = radius(scaled(both, 1)) < radius(s);
@@ -239,7 +316,7 @@ bool BallFlights::end(const std::vector<std::size_t>& contacts, double lo, doubl
   y_ = advanced(s);
   t_ = t_ + s;
   // A single mass is at the contact exactly.
-  for (const auto i : contacts)
+  for (const auto i : event.contacts)
     if (const auto mass = single_mass(i))
       y_[*mass] = Ball(contact(i).gap) / contact(i).direction[long(*mass)];
   return true;
@@ -254,21 +331,30 @@ std::optional<std::size_t> BallFlights::single_mass(std::size_t i) const {
   return std::size_t(mass);
 }
 
-std::vector<Ball> BallFlights::collide(const std::vector<std::size_t>& contacts) {
+std::vector<Ball> BallFlights::collide(const std::vector<std::size_t>& contacts,
+                                       const std::vector<std::size_t>& held) {
   Vector delassus, speeds;
   std::vector<Vector> of_unit;
   for (const auto i : contacts) of_unit.push_back(responses(contact(i).direction));
+  const auto along = [&](const Vector& response, std::size_t i) {
+    Ball sum;
+    for (std::size_t k = 0; k < n_; ++k)
+      if (const double b = contact(i).direction[long(k)]; b != 0.0) sum = sum + response[k] * b;
+    return sum;
+  };
   for (const auto i : contacts) {
-    const auto& b = contact(i).direction;
-    for (const auto& response : of_unit) {
-      Ball sum;
-      for (std::size_t k = 0; k < n_; ++k)
-        if (b[long(k)] != 0.0) sum = sum + response[k] * b[long(k)];
-      delassus.push_back(sum);
-    }
+    for (const auto& response : of_unit) delassus.push_back(along(response, i));
     speeds.push_back(-(gap(i, y_, n_) * unit_ * (Ball(1.0) + contact(i).restitution)));
   }
   const auto impulses = solved(delassus, speeds);
+  for (const auto i : held)
+    if (is_held(i) && std::ranges::count(contacts, i) == 0)
+      for (const auto& response : of_unit)
+        if (!along(response, i).is_zero())
+          throw InputError(
+              "digits: an impact that may open a held contact; allowed: "
+              "motions in which it acts on it or does not.",
+              "no-enclosure");
   const auto before = y_;
   for (std::size_t c = 0; c < contacts.size(); ++c)
     for (std::size_t k = 0; k < n_; ++k)
@@ -280,15 +366,18 @@ std::vector<Ball> BallFlights::collide(const std::vector<std::size_t>& contacts)
   return impulses;
 }
 
-bool BallFlights::pass(const exact::PiecewiseMotion::Event& event) {
-  if (!end(event.contacts, event.when.lo, event.when.hi)) return false;
-  if (const auto count = problem_.contacts.size(); event.contacts.front() >= count) {
-    closed_[event.contacts.front() - count].flip();
+std::vector<Ball> BallFlights::pass(const exact::PiecewiseMotion::Event& event,
+                                    const std::vector<std::size_t>& held) {
+  const auto first = event.contacts.front();
+  std::vector<Ball> impulses;
+  if (const auto count = problem_.contacts.size(); first >= count) {
+    closed_[first - count].flip();
     find_rate();
-  } else {
-    collide(event.contacts);
+  } else if (!is_held(first)) {
+    impulses = collide(event.contacts, held);
   }
-  return true;
+  if (held != held_) hold(held);
+  return impulses;
 }
 
 bool BallFlights::is_known(long bits) const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "clackers/exact/certified/ball.hpp"
+#include "clackers/exact/flights/held_contacts.hpp"
 #include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
@@ -15,15 +16,15 @@ struct KinematicBalls {
 };
 
 /// The flights of a linear structure with harmonic loads, contacts and
-/// one-sided springs, whose impacts are known but for their digits: y' = A y of
+/// one-sided springs, whose impacts and releases are known but for their digits: y' = A y of
 /// displacements, velocities, the loads' phases and 1, by Taylor series of
 /// balls with a bound on what is left out. Knows no modes. All with the working
 /// bits that it was made with, and of the doubles of the problem as they stand.
 class BallFlights {
  public:
   /// `problem` outlives it. Contacts that are springs have the numbers after
-  /// the others.
-  explicit BallFlights(const model::ImpactProblem<>& problem);
+  /// the others; `held` are closed from the start on.
+  BallFlights(const model::ImpactProblem<>& problem, const std::vector<std::size_t>& held);
 
   /// In this flight, at any t.
   KinematicBalls at(const Ball& t) const;
@@ -31,14 +32,13 @@ class BallFlights {
   KinematicBalls at_begin() const { return kinematics(y_); }
   /// Where this flight began [s].
   const Ball& begin() const { return t_; }
-  /// Ends the flight where these contacts close, or a spring opens, between lo
-  /// and hi [s], the only such instant there. False where the balls are too wide
-  /// to show that the gap moves all the time.
-  bool end(const std::vector<std::size_t>& contacts, double lo, double hi);
-  /// Newton's law at contacts that close together and push: the impulses.
-  std::vector<Ball> collide(const std::vector<std::size_t>& contacts);
-  /// Goes on in the next flight. False as end().
-  bool pass(const exact::PiecewiseMotion::Event& event);
+  /// Ends the flight at the only such instant within event.when. False where the balls are too wide
+  /// to show that the gap, or the force of a held contact, moves all the time.
+  bool end(const exact::PiecewiseMotion::Event& event);
+  /// What happens there; from then on these contacts are held. Returns the impulses by Newton's law, of an impact
+  /// alone. Throws InputError (no-enclosure) where it might open a held contact that has no impulse.
+  std::vector<Ball> pass(const exact::PiecewiseMotion::Event& event,
+                         const std::vector<std::size_t>& held);
 
   /// Whether every displacement and velocity is known to this many bits of the
   /// largest.
@@ -48,25 +48,33 @@ class BallFlights {
   using Vector = std::vector<Ball>;
 
   const model::Contact<>& contact(std::size_t i) const;
+  bool is_held(std::size_t contact) const;
   std::optional<std::size_t> single_mass(std::size_t contact) const;
   Ball& entry(std::size_t row, std::size_t column) { return rate_[row * size_ + column]; }
   Vector responses(const Eigen::VectorXd& force) const;
   void find_rate();
+  void hold(const std::vector<std::size_t>& contacts);
+  Vector constrained_mobility() const;
+  std::vector<Ball> collide(const std::vector<std::size_t>& contacts,
+                            const std::vector<std::size_t>& held);
   Vector rate(const Vector& y) const;
   KinematicBalls kinematics(const Vector& y) const;
   Vector advanced(const Ball& s) const;
   Vector advanced(Vector y, const Ball& s) const;
   Ball gap(std::size_t i, const Vector& y, std::size_t first) const;
+  Ball force(std::size_t held, const Vector& y) const;
 
   const model::ImpactProblem<>& problem_;
   const model::OneSidedSprings* springs_;
   std::vector<model::HarmonicForce> forces_;
   std::vector<bool> closed_;  // of the springs
   std::size_t n_, size_;
-  double unit_ = 1.0;    // of rates [1/s]: y has v over it
-  Vector inverse_mass_;  // row by row
-  Vector rate_;          // A, row by row; M times it in rows of velocities
-  Ball norm_;            // a bound on that of A
+  double unit_ = 1.0;               // of rates [1/s]: y has v over it
+  Vector inverse_mass_, mobility_;  // row by row; the second gives no acceleration to held contacts
+  std::vector<std::size_t> held_;
+  std::optional<exact::HeldContacts<Ball>> constraint_;
+  Vector rate_;  // A, row by row; M times it in rows of velocities
+  Ball norm_;    // a bound on that of A
   Ball t_;
   Vector y_;
 };

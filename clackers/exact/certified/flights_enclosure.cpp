@@ -52,39 +52,33 @@ double FlightsEnclosure::fraction_bits(long long flights) const {
   return 8.0 * (bits + restitution * double(flights + 1));
 }
 
-bool FlightsEnclosure::ends_held(std::size_t flight) const {
-  for (long long k = motion_.impact_count(motion_.end()); k >= 1; --k)
-    if (motion_.flight_before(k) == flight)
-      return std::ranges::any_of(motion_.closed_contacts(), [&](const auto& closed) {
-        return closed.begins.lo <= motion_.impact(k).t;
-      });
-  return true;
-}
-
 const BallFlights* FlightsEnclosure::begun(std::size_t flight) {
   constexpr long most_bits = 1 << 15;
   const auto refuse = [](const char* why, const char* allowed) {
     throw InputError(fmt::format("digits: {}; allowed: {}.", why, allowed), "no-enclosure");
   };
   if (WorkingBits::now() > most_bits && is_stuck_)
-    refuse("an impact has no speed that its instant lets be seen", "motions up to there");
+    refuse("an impact or a release has no speed that its instant lets be seen",
+           "motions up to there");
   if (WorkingBits::now() > most_bits)
     refuse("a value is 0 or halfway between two decimal numbers",
            "other values, or another number of digits");
+  if (!motion_.is_resolved(flight))
+    refuse("impacts accumulate, or a contact closes without a speed",
+           "times before, and of one mass those from its rest to the end");
   if (bits_ < WorkingBits::now()) begun_.clear();
   bits_ = std::max(bits_, WorkingBits::now());
   const WorkingBits scope(bits_);
-  if (begun_.empty()) begun_.emplace_back(motion_.problem());
+  if (begun_.empty()) begun_.emplace_back(motion_.problem(), motion_.held(0));
   is_stuck_ = false;
   while (begun_.size() <= flight) {
     const auto event = motion_.event(begun_.size() - 1);
-    if (!event && ends_held(begun_.size() - 1))
-      refuse("a contact is held", "times before, and of one mass those from its rest to the end");
     if (!event)
       refuse("contacts close together by chance", "motions of impacts whose order is certain");
     auto next = begun_.back();
-    is_stuck_ = !next.pass(*event);
+    is_stuck_ = !next.end(*event);
     if (is_stuck_) return nullptr;
+    next.pass(*event, motion_.held(begun_.size()));
     begun_.push_back(std::move(next));
   }
   return &begun_[flight];
@@ -138,7 +132,7 @@ ImpactBalls FlightsEnclosure::impact_now(long long k) {
   }
   auto flights = begun_[flight];
   const auto event = *motion_.event(flight);
-  flights.end(event.contacts, event.when.lo, event.when.hi);
+  flights.end(event);
   const auto& s = motion_.problem().system;
   const auto state = [&](KinematicBalls& to, Ball& energy) {
     to = flights.at_begin();
@@ -149,7 +143,7 @@ ImpactBalls FlightsEnclosure::impact_now(long long k) {
                                  -1);
   };
   state(hit.before, hit.energy_before);
-  const auto impulses = flights.collide(event.contacts);
+  const auto impulses = flights.pass(event, motion_.held(flight + 1));
   state(hit.after, hit.energy_after);
   hit.t = flights.begin();
   for (std::size_t c = 0; c < impulses.size(); ++c)

@@ -10,7 +10,7 @@ namespace clackers::certified {
 
 /// Of a motion flight by flight, which has proven what ends each: BallFlights
 /// with more and more bits. Throws InputError (no-enclosure) from where
-/// contacts are held.
+/// impacts accumulate, but for a mass that rests to the end.
 class FlightsEnclosure : public Enclosure {
  public:
   explicit FlightsEnclosure(const exact::PiecewiseMotion& motion)
@@ -35,8 +35,6 @@ class FlightsEnclosure : public Enclosure {
 
  private:
   const model::Contact<>* holding(double t) const;
-  /// Whether contacts are held when this flight, which no event ends, is over.
-  bool ends_held(std::size_t flight) const;
   /// Null where it takes more bits.
   const BallFlights* begun(std::size_t flight);
 

@@ -32,21 +32,30 @@ std::size_t PiecewiseMotion::flight_at(double t, Side side) const {
 }
 
 auto PiecewiseMotion::event(std::size_t flight) const -> std::optional<Event> {
-  if (flight + 1 >= flights_.size() || std::ranges::any_of(closed_, [&](const auto& closed) {
-        return closed.begins.lo <= flights_[flight + 1].t;
-      }))
-    return std::nullopt;
-  if (flights_[flight].switches) return flights_[flight].switches;
-  std::optional<Event> event;
-  auto hit = std::ranges::lower_bound(hits_, flight, {}, &Hit::flight);
-  for (; hit != hits_.end() && hit->flight == flight; ++hit) {
-    if (!(hit->impulse > 0.0)) continue;
-    if (!event) event = Event{{hit->t - hit->time_error, hit->t + hit->time_error}, {}};
-    for (const auto other : event->contacts)
-      if (!close_together(problem_, other, std::size_t(hit->contact))) return std::nullopt;
-    event->contacts.push_back(std::size_t(hit->contact));
-  }
-  return event;
+  const auto& ends = flights_[flight].ends;
+  if (!ends) return std::nullopt;
+  const auto first = ends->contacts.front();
+  const auto is_held = [&](std::size_t i) {
+    return i < problem_.contacts.size() && forces_[flights_[flight].regime][i].has_value();
+  };
+  for (const auto other : ends->contacts)
+    if (other != first && is_held(other) == is_held(first) &&
+        !close_together(problem_, first, other))
+      return std::nullopt;
+  return ends;
+}
+
+bool PiecewiseMotion::is_resolved(std::size_t flight) const {
+  return std::ranges::none_of(
+      unresolved_, [&](const auto& skipped) { return skipped.from <= flights_[flight].t; });
+}
+
+std::vector<std::size_t> PiecewiseMotion::held(std::size_t flight) const {
+  std::vector<std::size_t> held;
+  const auto& forces = forces_[flights_[flight].regime];
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    if (forces[i]) held.push_back(i);
+  return held;
 }
 
 void PiecewiseMotion::sample(std::span<const double> times, Side side,

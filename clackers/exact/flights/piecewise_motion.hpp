@@ -77,15 +77,19 @@ class PiecewiseMotion : public model::Motion {
   std::vector<model::ClosedContact> closed_contacts() const override { return closed_; }
   Eigen::VectorXd contact_forces(double t, model::Side side) const override;
 
-  /// What ends a flight: contacts that close together and push, or a spring that closes or opens, whose number
-  /// follows those of the contacts.
+  /// What ends a flight: contacts that close together and push, and held ones that do then; held contacts whose
+  /// force ends; or a spring that closes or opens, whose number follows those of the contacts.
   struct Event {
     model::TimeEnclosure when;
     std::vector<std::size_t> contacts;
   };
-  /// Of flight 0, 1, ..., for a second way to the motion. Nothing where contacts are held by then, or
-  /// close together by no symmetry, or where it does not end.
+  /// Of flight 0, 1, ..., for a second way to the motion. Nothing where contacts close together by no
+  /// symmetry, or where it does not end.
   std::optional<Event> event(std::size_t flight) const;
+  /// Whether flights resolve all that happens before this one.
+  bool is_resolved(std::size_t flight) const;
+  /// Contacts that are held in it, ascending.
+  std::vector<std::size_t> held(std::size_t flight) const;
   /// The flight at t, and the one that impact 1, 2, ... ends.
   std::size_t flight_at(double t, model::Side side) const;
   std::size_t flight_before(long long impact) const {
@@ -112,9 +116,9 @@ class PiecewiseMotion : public model::Motion {
   struct Flight {
     double t = 0.0;
     std::size_t regime = 0;
-    Vector free;                      // z without the steady response
-    FlightErrors errors;              // of z, at t; with bounds
-    std::optional<Event> switches{};  // the spring that ends it
+    Vector free;          // z without the steady response
+    FlightErrors errors;  // of z, at t; with bounds
+    std::optional<Event> ends{};
   };
   struct Hit {
     double t = 0.0, time_error = 0.0, impulse = 0.0;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "clackers/base/constants.hpp"
+#include "clackers/exact/flights/held_contacts.hpp"
 #include "clackers/exact/flights/idle_contacts.hpp"
 #include "clackers/exact/flights/piecewise_builder.hpp"
 #include "clackers/model/harmonic_load.hpp"
@@ -85,46 +86,25 @@ std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
   return closed_.size() - 1;
 }
 
-// Gauss and Jordan's elimination with the largest pivots; directions such as (1, -1, 0) stay exact.
 auto PiecewiseMotion::Builder::constraint(const std::vector<std::size_t>& contacts) const
     -> Constraint {
+  std::vector<model::Contact<>> held;
+  for (const auto i : contacts) held.push_back(contacts_[i]);
   const Index n = problem_.dof(), count = std::ssize(contacts);
-  MatrixXd left(count, n), right = MatrixXd::Identity(count, count);
-  VectorXd gaps(count);
-  for (Index k = 0; k < count; ++k) {
-    left.row(k) = contacts_[contacts[std::size_t(k)]].direction.transpose();
-    gaps[k] = contacts_[contacts[std::size_t(k)]].gap;
-  }
-  std::vector<Index> pivots;
-  std::vector<bool> is_pivot(std::size_t(n), false);
-  for (Index k = 0; k < count; ++k) {
-    Index column = 0;
-    left.row(k).cwiseAbs().maxCoeff(&column);
-    pivots.push_back(column);
-    is_pivot[std::size_t(column)] = true;
-    const double pivot = left(k, column);
-    left.row(k) /= pivot;
-    right.row(k) /= pivot;
-    gaps[k] /= pivot;
-    for (Index other = 0; other < count; ++other) {
-      const double share = left(other, column);
-      if (other == k || share == 0.0) continue;
-      left.row(other) -= share * left.row(k);
-      right.row(other) -= share * right.row(k);
-      gaps[other] -= share * gaps[k];
-    }
-  }
+  const HeldContacts<double> solved(held, std::size_t(n), [](double x) { return std::abs(x); });
   Constraint found{MatrixXd::Zero(n, n - count), MatrixXd::Zero(count, n), VectorXd::Zero(n)};
   Index column = 0;
   for (Index i = 0; i < n; ++i) {
-    if (is_pivot[std::size_t(i)]) continue;
+    if (solved.is_pivot[std::size_t(i)]) continue;
     found.basis(i, column) = 1.0;
-    for (Index k = 0; k < count; ++k) found.basis(pivots[std::size_t(k)], column) = -left(k, i);
+    for (std::size_t k = 0; k < held.size(); ++k)
+      found.basis(Index(solved.pivots[k]), column) = -solved.shares[k][std::size_t(i)];
     ++column;
   }
-  for (Index k = 0; k < count; ++k) {
-    found.offset[pivots[std::size_t(k)]] = gaps[k];
-    found.forces.col(pivots[std::size_t(k)]) = right.row(k).transpose();
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const auto pivot = Index(solved.pivots[k]);
+    found.offset[pivot] = solved.gaps[k];
+    for (Index j = 0; j < count; ++j) found.forces(j, pivot) = solved.inverse[k][std::size_t(j)];
   }
   return found;
 }
@@ -163,7 +143,7 @@ void PiecewiseMotion::Builder::change_regime() {
   }
   const double time_error =
       error_of(contact, s) / std::abs(watch(contact, s).slope) + 4.0 * epsilon * t;
-  m_.flights_.back().switches = Event{{t - time_error, t + time_error}, {contact}};
+  m_.flights_.back().ends = Event{{t - time_error, t + time_error}, {contact}};
   auto closed = closed_[now];
   closed[contact].flip();
   begin(seen_in(regime(closed), state));

@@ -110,6 +110,8 @@ void PiecewiseMotion::Builder::release(const std::vector<Closing>& closings) {
   const double s = closings.front().s, t = flight().t + s;
   std::vector<std::size_t> contacts;
   for (const auto& closing : closings) contacts.push_back(closing.contact);
+  const double late = closings.front().time_error;
+  m_.flights_.back().ends = Event{{t - late, t + late}, contacts};
   State held{flight().regime, t, m_.total(flight(), t), m_.errors_after(flight(), s)};
   auto open = seen_in(with_held(held.regime, contacts, false), held);
   const auto next = resting_by_jerk(open, contacts);
