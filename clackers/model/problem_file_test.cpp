@@ -147,6 +147,7 @@ TEST(ProblemFile, UnitsThatCannotBeMeantAreRefused) {
   EXPECT_REFUSED(read(with("K = [[2, 0], [0, 9]]", "K = [[2e12, 0], [0, 9]]")), "out-of-range",
                  "oscillates", "kg, m, s and N");
   EXPECT_REFUSED(read(with("end = 20", "end = 2e-5")), "out-of-range", "nothing moves");
+  EXPECT_NO_THROW(read("M = [[1]]\nK = [[1e-12]]\nend = 10\n[start]\nu = [1]\nv = [-1]\n"));
   EXPECT_REFUSED(read(with("v = [0, 0.25]", "v = [4e8, 0.25]")), "out-of-range",
                  "above that of light");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -42,9 +43,17 @@ struct BoundedOf {
                                              : std::numeric_limits<Real>::infinity());
   }
   friend Bounded abs(const Bounded& x) { return {abs(x.value), x.error}; }
+  friend Bounded min(const Bounded& a, const Bounded& b) {
+    return {std::min(a.value, b.value), std::max(a.error, b.error)};
+  }
+  /// The larger of x and 0.
+  friend Bounded positive_part(const Bounded& x) { return {std::max(Real(0), x.value), x.error}; }
   friend Bounded sin(const Bounded& x) { return rounded(sin(x.value), x.error, 2); }
   friend Bounded cos(const Bounded& x) { return rounded(cos(x.value), x.error, 2); }
-  friend Bounded atan(const Bounded& x) { return rounded(atan(x.value), x.error, 2); }
+  friend Bounded atan(const Bounded& x) {
+    const Real least = std::max(Real(0), abs(x.value) - x.error);
+    return rounded(atan(x.value), x.error / (Real(1) + least * least), 2);
+  }
   friend Bounded exp(const Bounded& x) {
     const Real e = exp(x.value);
     return rounded(e, e * expm1(x.error), 2);
@@ -57,7 +66,7 @@ struct BoundedOf {
   }
   friend Bounded sqrt(const Bounded& x) {
     const Real root = sqrt(x.value);
-    return rounded(root, x.error < x.value    ? x.error / sqrt(x.value - x.error)
+    return rounded(root, x.error < x.value    ? x.error / (root + sqrt(x.value - x.error))
                          : x.error == Real(0) ? Real(0)
                                               : std::numeric_limits<Real>::infinity());
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace clackers::numerics {
@@ -43,6 +44,33 @@ TEST(Bounded, FunctionsCarryTheErrorOfTheirArgumentOn) {
     expect_within(cos(x), [](long double y) { return std::cos(y); });
     expect_within(exp(x), [](long double y) { return std::exp(y); });
   }
+}
+
+// Far from 0 the slope of the arctangent is small, and at 0 that of the square root is large.
+TEST(Bounded, ErrorsGoWithTheSlope) {
+  for (const long double at : {-50.0L, 50.0L})
+    for (const long double width : {40.0L, 1e-3L}) {
+      const auto found = atan(Bounded(at, width));
+      for (const long double end : {at - width, at + width})
+        EXPECT_LE(std::abs(std::atan(end) - found.value), found.error) << at;
+      EXPECT_LT(found.error, width / 100.0L) << at;
+    }
+  const auto root = sqrt(Bounded(2.0L, 1.0L));
+  EXPECT_LE(std::sqrt(2.0L) - 1.0L, root.error);
+  EXPECT_LT(root.error, 0.42L);
+}
+
+// Which of the two is the smaller one, or whether a number is positive, may not be certain.
+TEST(Bounded, MinimumAndPositivePartCarryTheLargerErrorOn) {
+  constexpr long double width = 0x1p-20L;
+  for (const double at : {-1.0, -0x1p-21, 0.0, 0x1p-21, 1.0})
+    for (const long double end : {at - width, at + width}) {
+      const Bounded x(at, width);
+      const auto least = min(x, Bounded(0.0)), most = positive_part(x);
+      EXPECT_LE(std::abs(std::min(end, 0.0L) - least.value), least.error) << at;
+      EXPECT_LE(std::abs(std::max(end, 0.0L) - most.value), most.error) << at;
+    }
+  EXPECT_EQ(min(Bounded(2.0), Bounded(-3.0)).value, -3.0L);
 }
 
 TEST(Bounded, DivisionByWhatMayBeZeroHasNoBound) {

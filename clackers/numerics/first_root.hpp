@@ -131,9 +131,9 @@ FirstRoot first_root(auto&& f, double from, double until, double shortest, int m
     const LocalBound ahead = f(next);
     if (ahead.value < 0.0) {
       // A step this short is straight; a longer one ends at the root, give or take a rounding.
-      const double root = now.value > 0.0 || s > from
-                              ? s + (next - s) * (now.value / (now.value - ahead.value))
-                              : next;
+      const bool is_straight = zero.lo < shortest && (now.value > 0.0 || s > from);
+      const double root =
+          is_straight ? s + (next - s) * (now.value / (now.value - ahead.value)) : next;
       return root > until ? FirstRoot{none} : FirstRoot{found, root};
     }
     s = next;

@@ -221,7 +221,7 @@ Vector FlightErrors::bounds_until(const ForcedModes& modes, const Matrix& rows, 
   Vector bound = bounds_of(carried(modes, ball_, s), modes, rows);
   Vector sizes = Vector::Zero(columns_.rows());
   if (columns_.cols() > 0) sizes = columns_.rowwise().lpNorm<1>();
-  if (squares_.size() > 0) sizes += (count_ * squares_.diagonal()).cwiseSqrt();
+  if (squares_.size() > 0) sizes += (count_ * squares_.diagonal()).cwiseMax(0.0).cwiseSqrt();
   const auto later = modes.sizes(sizes, s, 0.0);
   for (Index i = 0; i < rows.rows(); ++i) bound[i] += modes.bound(rows.row(i).transpose(), later);
   return bound;

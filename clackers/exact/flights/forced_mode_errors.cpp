@@ -116,6 +116,12 @@ Vector ForcedModes::defect(const Vector& whole) const {
   return made;
 }
 
+Vector ForcedModes::acceleration_defect(const Vector& whole) const {
+  Vector sum = defect(whole);
+  for (const auto& force : forces_) sum += force.defect_per_time;
+  return derived_sizes(1, sum);
+}
+
 Vector ForcedModes::Force::sizes(double t) const {
   Vector sizes = steady.cwiseAbs();
   for (const auto& [j, beat, y, rate] : resonances) {
@@ -138,32 +144,6 @@ Vector ForcedModes::steady_sizes(int order, double t) const {
     }
   }
   return most;
-}
-
-double ForcedModes::fourth_bound(const Observable& seen, const Vector& free, double horizon) const {
-  double most = bound(seen.by_state.col(4), sizes(free, horizon));
-  for (std::size_t j = 0; j < push_.size(); ++j)
-    most += std::abs(seen.by_state(Index(j), 3) * push_[j].y) +
-            std::abs(seen.by_state(dof() + Index(j), 3) * push_[j].rate);
-  for (std::size_t i = 0; i < forces_.size(); ++i) {
-    most += std::pow(forces_[i].frequency, 4) * std::abs(seen.response[i]);
-    for (const auto& [j, beat, y, rate] : forces_[i].resonances) {
-      auto there = y, moves = rate;
-      for (int order = 0; order < 4; ++order)
-        there = there.derivative(beat), moves = moves.derivative(beat);
-      most += std::abs(seen.by_state(j, 0)) * there.bound(beat.most(horizon)) +
-              std::abs(seen.by_state(dof() + j, 0)) * moves.bound(beat.most(horizon));
-    }
-  }
-  return most;
-}
-
-double ForcedModes::rounding(const Observable& seen, const Sizes& size, double t) const {
-  double whole = seen.constant_size + bound(seen.size, size);
-  for (std::size_t i = 0; i < forces_.size(); ++i)
-    whole += (1.0 + forces_[i].frequency * t) *
-             (seen.direct_size[i] + seen.size.dot(forces_[i].sizes(t)));
-  return epsilon * double(mass_.rows() + 4) * whole;
 }
 
 // The energy of a mode, rate^2 + omega^2 y^2, does not grow where nothing pushes it.

@@ -154,7 +154,8 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
     };
     const Matrix real = left([](const auto&x) { return Vector(x.real()); }),
                  imaginary = left([](const auto&x) { return Vector(x.imag()); });
-    force.defect_per_time = (real.cwiseAbs2() + imaginary.cwiseAbs2()).cwiseSqrt();
+    force.defect_per_time = (real.cwiseAbs2() + imaginary.cwiseAbs2()).cwiseSqrt() +
+                            epsilon * double(n + 4) * impulse_sizes(applied.cwiseAbs());
   }
   // What the force itself rounds, where it is that of an offset.
   if (frequency == 0.0)
@@ -261,52 +262,6 @@ Vector ForcedModes::acceleration(const Vector& z, double t) const {
   for (const auto& force : forces_)
     a += (force.acceleration * std::polar(1.0, force.frequency * t)).real();
   return a;
-}
-
-auto ForcedModes::observe(const Vector& on_u, const Vector& on_v, const Vector& on_a,
-                          const Vector& on_load, double constant) const -> Observable {
-  Observable seen;
-  Vector row = this->row(0, on_u) + this->row(1, on_v) + this->row(2, on_a);
-  seen.size = row_of_sizes(0, on_u) + row_of_sizes(1, on_v) + row_of_sizes(2, on_a);
-  seen.by_state.resize(row.size(), 5);
-  for (int order = 0; order < 5; ++order, row = derived(row)) seen.by_state.col(order) = row;
-  seen.constant = constant + on_u.dot(offset_);
-  seen.constant_size = std::abs(constant) + on_u.cwiseAbs().dot(offset_.cwiseAbs());
-  seen.form = {system_, seen.by_state.col(0), seen.constant};
-  for (const auto& force : forces_) {
-    seen.response.push_back(seen.by_state.col(0).cast<Complex>().dot(force.steady) +
-                            on_a.cast<Complex>().dot(force.acceleration) +
-                            on_load.cast<Complex>().dot(force.applied));
-    seen.direct_size.push_back(on_a.cwiseAbs().dot(force.acceleration.cwiseAbs()) +
-                               on_load.cwiseAbs().dot(force.applied.cwiseAbs()));
-  }
-  return seen;
-}
-
-std::vector<numerics::ModalState> ForcedModes::states(const Vector& free) {
-  const Index n = free.size() / 2;
-  std::vector<numerics::ModalState> states;
-  for (Index j = 0; j < n; ++j) states.push_back({free[j], free[n + j]});
-  return states;
-}
-
-void ForcedModes::look_ahead(numerics::FormAhead& to, const Observable& seen,
-                             std::span<const numerics::ModalState> free, double t,
-                             double sign) const {
-  to.begin(system_, seen.form, free, sign, push_);
-  for (std::size_t i = 0; i < forces_.size(); ++i) {
-    to.add(seen.response[i] * std::polar(1.0, forces_[i].frequency * t), forces_[i].frequency);
-    for (const auto& [j, beat, y, rate] : forces_[i].resonances) {
-      const double on_y = seen.by_state(j, 0), on_rate = seen.by_state(dof() + j, 0);
-      to.add(beat, {on_y * y.e + on_rate * rate.e, on_y * y.r + on_rate * rate.r}, t);
-    }
-  }
-}
-
-numerics::LocalBound ForcedModes::now(const Observable& seen, const Vector& free, double t) const {
-  numerics::FormAhead ahead;
-  look_ahead(ahead, seen, states(free), t);
-  return ahead.whole(0.0);
 }
 
 }  // namespace clackers::exact

@@ -23,7 +23,7 @@ namespace clackers::exact {
 /// The error of a flight is bounded by the defect of what was computed: the modes as they stand solve
 /// their own equations but for rounding, and what they leave of those of the structure acts as a
 /// force. Undamped structures of three diagonals, such as meshes of bars, have modes without such a defect
-/// (tridiagonal_modes.hpp). The bounds are in forced_mode_errors.cpp.
+/// (tridiagonal_modes.hpp). The bounds are in forced_mode_errors.cpp, what is observed in observables.cpp.
 class ForcedModes {
  public:
   using Matrix = Eigen::MatrixXd;
@@ -134,6 +134,8 @@ class ForcedModes {
   double bound(const Eigen::Ref<const Vector>& row, const Sizes& sizes) const;
   /// What rounding does to z in s seconds that begin with the free state z at t.
   Vector local_errors(const Vector& z, double t, double s) const;
+  /// What the modes leave of the equations of the structure, as accelerations, where |z| has these sizes.
+  Vector acceleration_defect(const Vector& whole) const;
 
  private:
   /// The accelerations that forces on the structure give it.

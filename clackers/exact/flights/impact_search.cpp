@@ -247,15 +247,16 @@ void PiecewiseMotion::Builder::refuse_graze(std::size_t i, double t, double gap,
 void PiecewiseMotion::Builder::refuse_closed(std::size_t i, const numerics::LocalBound& gap,
                                              double level) const {
   const double t = flight().t, eta = problem_.contacts[i].restitution;
-  const bool is_pressed = gap.second < -touching_share * gap.curvature;
-  if (!is_held(i) && gap.slope > 0.0 && is_pressed && eta < 1.0)
+  const bool rebounds = !is_held(i) && begins_[i] == Begin::by_speed && gap.slope > 0.0 &&
+                        gap.second < -touching_share * gap.curvature;
+  if (rebounds && eta < 1.0)
     throw InputError(
         fmt::format("{}: impacts of contact {} accumulate near t = {:.9g} s, and that it rests "
                     "then is not certain: {}; allowed: a rest that is certain. End the run "
                     "earlier.",
                     m_.who_, i + 1, t + 2.0 * gap.slope / (-gap.second * (1.0 - eta)), no_rest_),
         "not-admissible");
-  refuse_graze(i, t, is_pressed ? -0.5 * gap.slope * gap.slope / gap.second : gap.value, level);
+  refuse_graze(i, t, rebounds ? -0.5 * gap.slope * gap.slope / gap.second : gap.value, level);
 }
 
 }  // namespace clackers::exact

@@ -119,8 +119,8 @@ void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
   for (const auto i : closed)
     if (impulses[Index(i)] > 0.0) pushing.push_back(i);
   std::stable_partition(pushing.begin(), pushing.end(), [&](std::size_t i) { return !is_held(i); });
-  const double late = std::ranges::find(closings, pushing.front(), &Closing::contact)->time_error;
-  m_.flights_.back().ends = Event{{t - late, t + late}, pushing};
+  const double late = closings.front().time_error;
+  if (!pushing.empty()) m_.flights_.back().ends = Event{{t - late, t + late}, pushing};
   const auto& free = m_.regimes_[base];
   if (at_rest(free.displacement(after.z), free.velocity(after.z), arriving)) {
     begin(std::move(after));

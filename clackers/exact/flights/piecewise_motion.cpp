@@ -1,14 +1,11 @@
 // A piecewise motion as a reference solution: states, envelopes, bounds.
 #include "clackers/exact/flights/piecewise_motion.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "clackers/base/constants.hpp"
-#include "clackers/base/error.hpp"
 #include "clackers/exact/flights/simultaneity.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 
@@ -35,14 +32,28 @@ auto PiecewiseMotion::event(std::size_t flight) const -> std::optional<Event> {
   const auto& ends = flights_[flight].ends;
   if (!ends) return std::nullopt;
   const auto first = ends->contacts.front();
-  const auto is_held = [&](std::size_t i) {
-    return i < problem_.contacts.size() && forces_[flights_[flight].regime][i].has_value();
-  };
   for (const auto other : ends->contacts)
-    if (other != first && is_held(other) == is_held(first) &&
+    if (other != first && is_held(flight, other) == is_held(flight, first) &&
         !close_together(problem_, first, other))
       return std::nullopt;
   return ends;
+}
+
+bool PiecewiseMotion::is_held(std::size_t flight, std::size_t contact) const {
+  return contact < problem_.contacts.size() && forces_[flights_[flight].regime][contact];
+}
+
+bool PiecewiseMotion::may_end(std::size_t flight, double t) const {
+  const auto& ends = flights_[flight].ends;
+  if (!ends || !(ends->when.lo <= t && t <= ends->when.hi)) return false;
+  const auto i = ends->contacts.front();
+  return i >= problem_.contacts.size() || is_held(flight, i);
+}
+
+Kinematics PiecewiseMotion::in_flight(const Flight& flight, double t) const {
+  const auto& modes = this->modes(flight);
+  const VectorXd now = total(flight, t);
+  return {modes.displacement(now), modes.velocity(now), modes.acceleration(now, t)};
 }
 
 bool PiecewiseMotion::is_resolved(std::size_t flight) const {
@@ -121,13 +132,15 @@ void for_rows(const ForcedModes& modes, int order, auto&& function) {
 Kinematics PiecewiseMotion::error_bound(double t) const {
   const Index n = dof();
   const VectorXd least = VectorXd::Constant(n, has_bounds_ ? 0.0 : infinity);
-  Kinematics bound{least, least, least}, apart = bound;
+  Kinematics bound{least, least, least}, apart = bound, late = bound;
   if (!has_bounds_) return bound;
-  const auto last = flight_at(t, Side::right);
-  for (auto k = flight_at(t, Side::left); k <= last; ++k) {
+  auto k = flight_at(t, Side::left), last = flight_at(t, Side::right);
+  if (k > 0 && may_end(k - 1, t)) --k;
+  if (last + 1 < flights_.size() && may_end(last, t)) ++last;
+  for (; k <= last; ++k) {
     const auto& flight = flights_[k];
     const auto& modes = this->modes(flight);
-    const double s = t - flight.t;
+    const double s = std::max(0.0, t - flight.t);
     const VectorXd local = modes.local_errors(flight.free, flight.t, s);
     // What is summed, for the rounding of the sum.
     const auto size = modes.sizes(flight.free, s);
@@ -138,8 +151,8 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
       load += (2.0 + force.frequency * t) * force.acceleration.cwiseAbs();
     }
     const auto raise = [&](VectorXd& to, int order, const VectorXd& more) {
-      const VectorXd rounding =
-          epsilon * double(n + 4) * (modes.derived_sizes(order, whole) + more);
+      VectorXd rounding = epsilon * double(n + 4) * (modes.derived_sizes(order, whole) + more);
+      if (order == 2) rounding += modes.acceleration_defect(whole);
       for_rows(modes, order, [&](Index first, const MatrixXd& rows) {
         auto some = to.segment(first, rows.rows());
         some = some.cwiseMax(flight.errors.bounds(modes, rows, s) + rows.cwiseAbs() * local +
@@ -149,6 +162,11 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
     raise(bound.u, 0, modes.offset().cwiseAbs());
     raise(bound.v, 1, VectorXd::Zero(n));
     raise(bound.a, 2, load);
+    if (k == last || !may_end(k, t)) continue;
+    const auto now = in_flight(flight, t), next = in_flight(flights_[k + 1], t);
+    late.u += (next.u - now.u).cwiseAbs();
+    late.v += (next.v - now.v).cwiseAbs();
+    late.a += (next.a - now.a).cwiseAbs();
   }
   for (const auto& skipped : unresolved_) {
     if (t < skipped.from || t > skipped.until) continue;
@@ -158,9 +176,9 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
     apart.v = apart.v.cwiseMax(share * skipped.bound.v);
     apart.a = apart.a.cwiseMax(skipped.bound.a);
   }
-  bound.u += apart.u;
-  bound.v += apart.v;
-  bound.a += apart.a;
+  bound.u += apart.u + late.u;
+  bound.v += apart.v + late.v;
+  bound.a += apart.a + late.a;
   return bound;
 }
 
@@ -200,13 +218,7 @@ long long PiecewiseMotion::impact_count(double t) const {
 }
 
 model::MotionImpact PiecewiseMotion::impact(long long index) const {
-  const auto count = std::ssize(hits_);
-  if (index < 1 || index > count)
-    throw InputError(
-        fmt::format("{}: impact {} was asked for; allowed: {}.", who_, index,
-                    count == 0 ? std::string("none, since nothing collides up to the end")
-                               : fmt::format("1 to {}", count)),
-        "beyond-last-impact");
+  model::require_impact(who_, index, std::ssize(hits_), end_);
   const auto& hit = hits_[std::size_t(index - 1)];
   model::MotionImpact impact;
   impact.index = index;

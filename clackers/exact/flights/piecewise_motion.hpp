@@ -128,6 +128,10 @@ class PiecewiseMotion : public model::Motion {
 
   const ForcedModes& modes(const Flight& flight) const { return regimes_[flight.regime]; }
   Vector total(const Flight& flight, double t) const;
+  model::Kinematics in_flight(const Flight& flight, double t) const;
+  bool is_held(std::size_t flight, std::size_t contact) const;
+  /// Whether it ends at t give or take the error of that, without an impact: by a release or a spring.
+  bool may_end(std::size_t flight, double t) const;
   FlightErrors errors_after(const Flight& flight, double s) const;
 
   std::string who_;

@@ -255,10 +255,10 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
   const VectorXd momentum = gap * seconds * of_stiffness + drift * of_damping;
   const VectorXd displacement =
       2.0 * gap * seconds * after.change(slowing, VectorXd::Zero(m_.dof()));
-  if (m_.has_bounds_) {
-    held.errors.add_columns(momentum);
-    held.errors.add_columns(displacement);
-  }
+  // The neighbours are braked themselves while they are slowed.
+  const VectorXd braking = 2.0 * gap * seconds * after.impulse(after.damping() * slowing);
+  if (m_.has_bounds_)
+    for (const auto& error : {momentum, displacement, braking}) held.errors.add_columns(error);
   return skipped;
 }
 

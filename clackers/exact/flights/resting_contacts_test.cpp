@@ -337,10 +337,13 @@ model::ImpactProblem<> random_resting(Box& box) {
   auto& system = problem.system;
   system.mass = MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) system.mass(i, i) = box.uniform(0.5, 2.0);
+  const bool floats = box.one_in(4);  // no spring to the ground, and few dashpots
   const auto chain = [&](double least, double most) {
     MatrixXd x = MatrixXd::Zero(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      const double own = box.uniform(least, most), between = box.uniform(least, most);
+      double own = box.uniform(least, most), between = box.uniform(least, most);
+      if (floats) own = 0.0;
+      if (floats && box.one_in(3)) between = 0.0;
       x(i, i) += own;
       if (i + 1 == n) continue;
       x(i, i) += between;
@@ -380,12 +383,12 @@ TEST(RestingContacts, NeighboursOfAContactThatComesToRestMoveAsTheTaylorSeriesSa
   Tally tally;
   for (int trial = 0; trial < trials(12); ++trial) {
     SCOPED_TRACE(testing::Message() << "seed 44, trial " << trial);
-    const double k = box.decades(-1.0, 2.0), c = trial % 2 == 0 ? 0.0 : box.decades(-2.0, -0.5);
+    const double k = box.decades(-1.0, 2.0), c = trial % 2 == 0 ? 0.0 : box.decades(-2.0, 1.0);
     const double eta = box.uniform(0.1, 0.6), f = box.uniform(1.0, 3.0) + 0.2 * k;
     auto problem = pressed_mass(1.0, k, f, 0.05, eta);
     auto& system = problem.system;
     const Eigen::Matrix4d chain{{1, -1, 0, 0}, {-1, 2, -1, 0}, {0, -1, 2, -1}, {0, 0, -1, 2}};
-    system.mass = Eigen::Vector4d(1.0, box.uniform(0.5, 2.0), 1.0, 0.5).asDiagonal();
+    system.mass = Eigen::Vector4d(1.0, box.decades(-1.7, 0.3), 1.0, 0.5).asDiagonal();
     system.stiffness = k * chain;
     system.damping = c * chain;
     problem.contacts = {{VectorXd::Unit(4, 0), 0.0, eta}};
@@ -397,7 +400,7 @@ TEST(RestingContacts, NeighboursOfAContactThatComesToRestMoveAsTheTaylorSeriesSa
     if (closed.empty() || !closed[0].accumulates || closed[0].begins.hi > 2.9) continue;
     ++tally.members;
     TaylorSimulator simulator(problem);
-    for (int i = 1; i <= 20; ++i) {
+    for (int i = 1; i <= 30; ++i) {
       const double x = i / 21.0, t = x * closed[0].begins.hi + (1.0 - x) * closed[0].resolved;
       while (simulator.next(t)) {
       }
@@ -461,6 +464,25 @@ TEST(RestingContacts, OfRandomStructuresMoveAsTheTaylorSeriesSays) {
   for (const auto& [reason, count] : refused) testing::Test::RecordProperty(reason, count);
   EXPECT_GT(tally.rests, tally.members / 4);
   tally.record();
+}
+
+// Both contacts stop the structure; one of them opens by its acceleration, and would graze at 1.91 s.
+TEST(RestingContacts, AnImpactThatLeavesNoSpeedIsFollowed) {
+  model::ImpactProblem<> problem;
+  problem.system.mass = Eigen::Vector2d(0.5, 1.5).asDiagonal();
+  problem.system.stiffness = MatrixXd{{24.0, -10.0}, {-10.0, 14.0}};
+  problem.system.damping = MatrixXd::Zero(2, 2);
+  problem.contacts = {{Eigen::Vector2d(-1.0, 2.0), 1.125, 0.0},
+                      {Eigen::Vector2d(1.0, 1.0), 0.5, 0.0}};
+  problem.start = {0.0, Eigen::Vector2d(1.0, 1.5), VectorXd::Zero(2)};
+  problem.end = 1.5;
+  const PiecewiseMotion motion(problem);
+  const auto stop = motion.impact(2);
+  EXPECT_NEAR(stop.t, 0.505966392, 1e-9);
+  EXPECT_NEAR(stop.impulse, 2.172194, 1e-6);
+  EXPECT_LT(stop.after.v.cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_EQ(motion.closed_contacts().size(), 1u);
+  EXPECT_GT(motion.at(stop.t + 0.01, Side::right).u.sum(), 0.5);
 }
 
 // 12000 impacts later the error of a ball is its height.

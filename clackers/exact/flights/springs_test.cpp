@@ -9,6 +9,8 @@
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/exact/pair/closed_form.hpp"
+#include "clackers/exact/testing/test_oracle.hpp"
+#include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::exact {
 namespace {
@@ -147,6 +149,37 @@ model::ImpactProblem<> stop() {
   problem.start = {0.0, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)};
   problem.end = 15.0;
   return problem;
+}
+
+// A constant force drives a free mass onto the spring: a parabola, an arc of the spring, and the same back. From
+// the spring on, the parabola ends where it is not positive give or take a rounding.
+TEST(PiecewiseSprings, UnderAFreeMassThrowItBackToWhereItCameFrom) {
+  testing_oracle::Box box(45);
+  for (int trial = 0; trial < 200; ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 45, trial " << trial);
+    model::ImpactProblem<> problem;
+    const double m = box.uniform(0.5, 4.0), a = box.uniform(0.3, 4.0), k = box.decades(1.0, 4.0),
+                 height = box.uniform(0.05, 1.0), gap = box.uniform(-0.5, 0.5);
+    problem.system.mass = Eigen::MatrixXd::Constant(1, 1, m);
+    problem.system.stiffness = problem.system.damping = Eigen::MatrixXd::Zero(1, 1);
+    problem.system.add_load = model::HarmonicLoad({{0, m * a, 0.0, 0.0}});
+    problem.system.nonlinear = std::make_shared<model::OneSidedSprings>(
+        std::vector<model::Contact<>>{{-Eigen::VectorXd::Ones(1), gap, 1.0}}, std::vector{k});
+    problem.start = {0.0, Eigen::VectorXd::Constant(1, -gap - height), Eigen::VectorXd::Zero(1)};
+    const double fall = std::sqrt(2.0 * height / a), omega = std::sqrt(k / m);
+    const double contact = 2.0 / omega * (std::numbers::pi - std::atan(a * fall * omega / a));
+    const double period = 2.0 * fall + contact;
+    problem.end = 6.0 * period;
+    const PiecewiseMotion motion(problem);
+    ASSERT_EQ(motion.spring_contacts().size(), 6u);
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_NEAR(motion.spring_contacts()[std::size_t(i)], fall + i * period, 1e-12 * problem.end);
+      const double t = (i + 1) * period * (1.0 - 1e-15);
+      EXPECT_NEAR(motion.at(t, model::Side::left).u[0], -gap - height, 1e-10);
+      const double falls = i * period + 0.5 * fall;
+      EXPECT_NEAR(motion.at(falls, model::Side::left).v[0], 0.5 * fall * a, 1e-10);
+    }
+  }
 }
 
 TEST(PiecewiseSprings, AgreesWithTaylorSeriesWithinItsBound) {

@@ -19,11 +19,15 @@ namespace {
 
 constexpr double worst_condition = 1e5;
 
+// Of the entries of a matrix that is seen through modes.
+double rounding_of(const MatrixXd& x) {
+  return 64.0 * double(x.rows()) * epsilon * x.cwiseAbs().maxCoeff();
+}
+
 // A and B are seen through modes: those that an entry above rounding of either matrix connects.
 std::vector<std::vector<Index>> coupled_blocks(const MatrixXd& a, const MatrixXd& b) {
   const Index n = a.rows();
-  const double unit = 64.0 * double(n) * epsilon;
-  const double a_size = unit * a.cwiseAbs().maxCoeff(), b_size = unit * b.cwiseAbs().maxCoeff();
+  const double a_size = rounding_of(a), b_size = rounding_of(b);
   std::vector<std::vector<Index>> blocks;
   std::vector<bool> is_taken(std::size_t(n), false);
   for (Index first = 0; first < n; ++first) {
@@ -64,6 +68,12 @@ double Mode::growth() const {
 }
 
 ModalState advance(const Mode& mode, const ModalState& start, double s) {
+  // Without a product with y, which a mass at rest keeps.
+  if (mode.omega_square == 0.0) {
+    const double x = -2.0 * mode.sigma * s;
+    const double covered = x != 0.0 ? s * (std::expm1(x) / x) : s;
+    return {start.y + start.rate * covered, start.rate * std::exp(x)};
+  }
   const double p = start.y, r = start.rate + mode.sigma * start.y;
   const double x = mode.w * s;
   double c = 1.0, n = s, signed_square = 0.0, decay = 0.0;
@@ -138,17 +148,17 @@ std::optional<ModalSystem> ModalSystem::make(const MatrixXd& mass, const MatrixX
   }
   if (!modal_damping.allFinite() || !modal_stiffness.allFinite()) return std::nullopt;
   // A rigid body mode has an eigenvalue 0 give or take a rounding.
-  const double rounding = 64.0 * double(n) * epsilon * modal_stiffness.cwiseAbs().maxCoeff();
+  const double rounding = made.diagonal_ ? 0.0 : rounding_of(modal_stiffness);
   for (const auto& block : coupled_blocks(modal_damping, modal_stiffness)) {
     if (block.size() > 1) {
       if (!made.add_coupled(block, modal_damping, modal_stiffness)) return std::nullopt;
       continue;
     }
     const Index j = block[0];
-    double square = modal_stiffness(j, j);
-    if (!made.diagonal_ && std::abs(square) <= rounding) square = 0.0;
+    const double square = modal_stiffness(j, j);
     made.shapes_(j, Index(made.modes_.size())) = 1.0;
-    made.modes_.emplace_back(0.5 * modal_damping(j, j), square);
+    made.modes_.emplace_back(0.5 * modal_damping(j, j),
+                             std::abs(square) <= rounding ? 0.0 : square);
   }
   for (const auto& mode : made.modes_)
     made.fastest_ = std::max({made.fastest_, mode.omega, 2.0 * std::abs(mode.sigma)});
@@ -198,37 +208,83 @@ MatrixXd ModalSystem::inverse() const {
   return both;
 }
 
-// The modes of a block that damping couples; their shapes in the coordinates of the block.
+namespace {
+
+// Eigenvectors of a symmetric matrix, first those whose eigenvalue is 0 give or take a rounding.
+struct Directions {
+  MatrixXd vectors;
+  VectorXd values;
+  Index none = 0;  // eigenvalues that are 0
+  Directions(const MatrixXd& x, double rounding) : vectors(x), values(x.rows()) {
+    if (x.size() == 0) return;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(x);
+    const auto& all = solver.eigenvalues();
+    const Index below = (all.array() < -rounding).count();
+    none = (all.array() <= rounding).count() - below;
+    for (Index i = 0; i < all.size(); ++i) {
+      const Index from = i < none ? below + i : i < none + below ? i - none : i;
+      vectors.col(i) = solver.eigenvectors().col(from);
+      values[i] = i < none ? 0.0 : all[from];
+    }
+  }
+};
+
+}  // namespace
+
+// The modes of a block that damping couples; their shapes in the coordinates of the block. A direction
+// without stiffness keeps its displacement, an eigenvalue that is exactly 0: the matrix is of the
+// other displacements and of all velocities. One that has no damping either is a mode by itself.
 bool ModalSystem::add_coupled(const std::vector<Index>& block, const MatrixXd& damping,
                               const MatrixXd& stiffness) {
-  const MatrixXd c = part(damping, block), k = part(stiffness, block);
-  const Index m = c.rows();
-  // In units of time in which all entries are 1 at most.
-  const double fast = std::max(std::sqrt(k.cwiseAbs().maxCoeff()), c.cwiseAbs().maxCoeff());
-  MatrixXd first_order = MatrixXd::Zero(2 * m, 2 * m);
-  first_order.topRightCorner(m, m).setIdentity();
-  first_order.bottomLeftCorner(m, m) = -k / (fast * fast);
-  first_order.bottomRightCorner(m, m) = -c / fast;
-  const Eigen::EigenSolver<MatrixXd> solver(first_order);
-  if (solver.info() != Eigen::Success) return false;
-  const auto values = solver.eigenvalues();
-  const Eigen::MatrixXcd vectors = solver.eigenvectors().colwise().normalized();
-  if (!(vectors.inverse().norm() * vectors.norm() < worst_condition)) return false;
-
+  const MatrixXd block_damping = part(damping, block);
+  const Directions stiff(part(stiffness, block), rounding_of(stiffness));
+  MatrixXd directions = stiff.vectors;
+  const auto loose = directions.leftCols(stiff.none);
+  const Directions damped(loose.transpose() * block_damping * loose, rounding_of(damping));
+  directions.leftCols(stiff.none) = MatrixXd(loose * damped.vectors);
   const auto add = [&](const Mode& mode, const VectorXd& shape, const VectorXd& rate_shape) {
     const auto column = Index(modes_.size());
-    for (Index i = 0; i < m; ++i) {
-      shapes_(block[std::size_t(i)], column) = shape[i];
-      rate_shapes_(block[std::size_t(i)], column) = rate_shape[i];
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      shapes_(block[i], column) = shape[Index(i)];
+      rate_shapes_(block[i], column) = rate_shape[Index(i)];
     }
     modes_.push_back(mode);
   };
+  for (Index i = 0; i < damped.none; ++i)
+    add(Mode(0.0, 0.0), directions.col(i), VectorXd::Zero(directions.rows()));
+  directions = MatrixXd(directions.rightCols(directions.cols() - damped.none));
+  const MatrixXd c = directions.transpose() * block_damping * directions;
+  const Index m = c.rows(), free = stiff.none - damped.none, held = m - free;
+  const VectorXd k = stiff.values.tail(held);
+  // In units of time in which all entries are 1 at most.
+  const double fast =
+      std::max(std::sqrt(stiff.values.cwiseAbs().maxCoeff()), c.cwiseAbs().maxCoeff());
+  MatrixXd first_order = MatrixXd::Zero(held + m, held + m);
+  first_order.block(0, held + free, held, held).setIdentity();
+  first_order.block(held + free, 0, held, held) = MatrixXd((-k / (fast * fast)).asDiagonal());
+  first_order.bottomRightCorner(m, m) = -c / fast;
+  const Eigen::EigenSolver<MatrixXd> solver(first_order);
+  if (solver.info() != Eigen::Success) return false;
+  Eigen::VectorXcd values = Eigen::VectorXcd::Zero(2 * m);
+  values.tail(held + m) = solver.eigenvalues();
+  Eigen::MatrixXcd vectors = Eigen::MatrixXcd::Zero(2 * m, 2 * m);
+  vectors.topLeftCorner(free, free).setIdentity();
+  const Eigen::MatrixXcd found = solver.eigenvectors();
+  vectors.block(free, free, held + m, held + m) = found;
+  for (Index i = 0; i < free; ++i)
+    vectors.row(i).tail(held + m) =
+        found.row(held + i).cwiseQuotient(solver.eigenvalues().transpose());
+  vectors = Eigen::MatrixXcd(vectors.colwise().normalized());
+  if (!(vectors.inverse().norm() * vectors.norm() < worst_condition)) return false;
+  // Displacements in the coordinates of the block.
+  const Eigen::MatrixXcd shapes = directions.cast<std::complex<double>>() * vectors.topRows(m);
+
   std::vector<Index> real;
   for (Index i = 0; i < 2 * m; ++i) {
     const double decay = -values[i].real() * fast, w = values[i].imag() * fast;
     if (w == 0.0) real.push_back(i);
     if (!(w > 0.0)) continue;
-    const Eigen::VectorXcd x = vectors.col(i).head(m);
+    const Eigen::VectorXcd x = shapes.col(i);
     Mode mode(decay, decay * decay + w * w);
     mode.w = w;
     add(mode, x.real() + (decay / w) * x.imag(), x.imag() / w);
@@ -238,8 +294,9 @@ bool ModalSystem::add_coupled(const std::vector<Index>& block, const MatrixXd& d
   for (std::size_t i = 0; i < real.size() / 2; ++i) {
     const Index first = real[i], second = real[real.size() - 1 - i];
     const double a = values[first].real() * fast, b = values[second].real() * fast;
-    const VectorXd x = vectors.col(first).head(m).real(), y = vectors.col(second).head(m).real();
-    Mode mode(-0.5 * (a + b), a * b);
+    const VectorXd x = shapes.col(first).real(), y = shapes.col(second).real();
+    if (a == b) return false;
+    Mode mode(-0.5 * (a + b), a * b + 0.0);  // not -0
     mode.w = 0.5 * std::abs(a - b);
     add(mode, (a * y - b * x) / (a - b), (x - y) / (a - b));
   }

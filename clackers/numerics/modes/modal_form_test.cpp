@@ -9,8 +9,6 @@
 namespace clackers::numerics {
 namespace {
 
-using std::numbers::pi;
-
 struct Flight {
   ModalSystem system;
   std::vector<ModalState> start;
@@ -178,7 +176,7 @@ TEST(ModalForm, ItsFirstRootCostsTheSameForEveryRatioOfFrequencies) {
     const auto colliding = pair(X, 3.0);
     const auto found = search(colliding, ModalForm(colliding.system, apart, {}, 0.0), 10.0);
     ASSERT_EQ(found.root.status, FirstRoot::Status::found) << X;
-    EXPECT_NEAR(found.root.s, pi, 1e-15) << X;
+    EXPECT_NEAR(found.root.s, std::numbers::pi, 1e-15) << X;
     EXPECT_LE(found.calls, 25) << X;
   }
 }
@@ -201,7 +199,7 @@ TEST(ModalForm, ItsFirstRootIsNotSkippedWhereTheFastModeGrazes) {
       const auto found = search(colliding, ModalForm(colliding.system, apart, {}, 0.0), 10.0);
       ASSERT_EQ(found.root.status, FirstRoot::Status::found);
       if (share < 1.0) {
-        EXPECT_NEAR(found.root.s, pi, 1e-14) << X << ' ' << share;
+        EXPECT_NEAR(found.root.s, std::numbers::pi, 1e-14) << X << ' ' << share;
       } else {
         EXPECT_LT(found.root.s * X, 5.0) << X << ' ' << share;
       }
@@ -241,7 +239,7 @@ TEST(ModalForm, FirstRootOfAGrowingMotionIsFound) {
   const auto fluttering = flight(One(1.0), One(-0.2), One(1.01), One(1.0), One(0.1));
   const auto found = search(fluttering, ModalForm(fluttering.system, {&b, 1}, {}, 8.0), 50.0).root;
   EXPECT_NEAR(std::exp(0.1 * found.s) * std::cos(found.s), -8.0, 1e-12);
-  EXPECT_LT(found.s, 7.0 * pi);
+  EXPECT_LT(found.s, 7.0 * std::numbers::pi);
 }
 
 }  // namespace
