@@ -36,6 +36,16 @@ void add_wave(std::vector<Quantity>& list, const std::string& number,
   list.push_back({"m" + number, (wave.impedance * wave.transit).nearest(), "kg", "mass"});
 }
 
+// Of the first two contacts.
+void add_contacts(Case& test_case, const std::vector<BarContact::Event>& events) {
+  int count = 0;
+  for (const auto& event : events) {
+    count += event.closes ? 1 : 0;
+    if (count > 2) break;
+    add_contact(test_case, std::max(count, 1), event.t, event.closes);
+  }
+}
+
 // Bars, their mesh, and what all of them have in common.
 std::shared_ptr<const BarContact> use_bars(Case& test_case, const Values& value,
                                            const BarsParameters& parameters) {
@@ -46,12 +56,7 @@ std::shared_ptr<const BarContact> use_bars(Case& test_case, const Values& value,
     add_wave(list, parameters.bars.size() == 1 ? std::string() : std::to_string(b + 1),
              bars->wave(b));
   list.push_back({"gap", bars->gap().nearest(), "m", "at t = 0"});
-  int count = 0;
-  for (const auto& event : bars->events()) {
-    count += event.closes ? 1 : 0;
-    if (count > 2) break;
-    add_contact(test_case, std::max(count, 1), event.t, event.closes);
-  }
+  add_contacts(test_case, bars->events());
   use_mesh(test_case, value, {parameters.bars, bars->gap().nearest(), bars->end(), parameters.g});
   return bars;
 }
@@ -109,8 +114,7 @@ void build_mass_on_bar(Case& test_case, const Values& value, double) {
   test_case.bars = motion;
   auto& list = test_case.constants;
   add_wave(list, "", motion->wave());
-  add_contact(test_case, 1, motion->begins(), true);
-  add_contact(test_case, 1, motion->ends(), false);
+  add_contacts(test_case, motion->events());
   list.push_back(
       {"v_after", motion->rebound().nearest(), "m/s", "velocity of the mass afterwards"});
   use_mesh(test_case, value, {{p.bar}, p.gap, p.end, 0.0, p.M, p.V, p.is_fixed});

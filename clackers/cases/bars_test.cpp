@@ -409,6 +409,80 @@ TEST(BarCases, AMassLeavesItsBarWhenTheDelayEquationSaysSo) {
   }
 }
 
+// Far end, characteristics, law of contact, Newton's law and energy, which together have one solution.
+TEST(BarCases, AMassThatIsStruckAgainKeepsTheLaws) {
+  Box box(94);
+  int again = 0;
+  for (int trial = 0; trial < trials(12); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 94, trial " << trial);
+    const double V = box.decades(-1.0, 1.0), L = box.decades(-1.0, 1.0), E = box.decades(-1.0, 1.0),
+                 rho = box.decades(-1.0, 1.0), A = box.decades(-1.0, 1.0),
+                 tau = L * std::sqrt(rho / E), z = A * std::sqrt(E * rho),
+                 ratio = trial == 0   ? 1.72833  // the front comes 3e-6 tau after the release
+                         : trial == 1 ? 0.01
+                                      : box.decades(-1.9, 1.9),
+                 M = ratio * z * tau, back = trial % 6 == 5 ? 1.0 : -1.0,
+                 end = (0.3 + 3.5 * std::sqrt(ratio) + 6.0) * tau;
+    const auto made = make_mesh("mass-on-bar", {{"V", V},
+                                                {"L", L},
+                                                {"E", E},
+                                                {"rho", rho},
+                                                {"A", A},
+                                                {"M", M},
+                                                {"d", 0.3 * V * tau},
+                                                {"elements", 2.0},
+                                                {"far", back < 0.0 ? "fixed" : "free"},
+                                                {"t_end", end}});
+    const auto& bar = *made.bars;
+    const auto changes = bar.contact_changes(100);
+    ASSERT_EQ(changes.size() % 2, 0u);
+    again += changes.size() > 2 ? 1 : 0;
+    const auto wave = [&](double t, double sign) {
+      const auto x = bar.at(0, 0.0, t, Side::right);
+      return x.v.nearest() + sign * x.stress.nearest() / std::sqrt(E * rho);
+    };
+    const auto speed = [&](double t) { return V - bar.impulse(t, Side::right).nearest() / M; };
+    const auto moved = [&](double t) { return bar.at(0, 0.0, t, Side::right).u.nearest(); };
+    for (std::size_t k = 0; k < changes.size(); k += 2) {
+      const double closes = changes[k], opens = changes[k + 1],
+                   next = k + 2 < changes.size() ? changes[k + 2] : end;
+      const auto gap = [&](double t) {
+        return moved(t) - moved(opens) - speed(next) * (t - opens);
+      };
+      for (int i = 0; i < 12; ++i) {
+        const double inside = box.uniform(closes, opens), outside = box.uniform(opens, next);
+        const double R = bar.force(inside, Side::right).nearest();
+        EXPECT_GT(R, 0.0);
+        EXPECT_NEAR(R, 0.5 * z * (wave(inside, -1.0) - wave(inside, 1.0)), 1e-14 * z * V);
+        EXPECT_NEAR(speed(inside), bar.at(0, 0.0, inside, Side::right).v.nearest(), 1e-12 * V);
+        const double h = 1e-5 * std::min({M / z, inside - closes, opens - inside});
+        EXPECT_NEAR(M * (speed(inside + h) - speed(inside - h)), -2.0 * h * R,
+                    1e-8 * h * z * V + 1e-15 * (1.0 + ratio) * M * V);
+        EXPECT_GE(gap(outside), -1e-14 * V * end);
+        EXPECT_EQ(bar.force(outside, Side::right).nearest(), 0.0);
+        EXPECT_NEAR(wave(outside, -1.0), wave(outside, 1.0), 1e-14 * V);
+      }
+      if (next < end) {
+        EXPECT_NEAR(gap(next), 0.0, 1e-14 * V * end);
+      }
+    }
+    for (int i = 0; i < 12; ++i) {
+      const double t = box.uniform(0.0, end - 2.0 * tau);
+      EXPECT_NEAR(wave(t + 2.0 * tau, 1.0), back * wave(t, -1.0), 1e-12 * V);
+      const auto energy = bar.energy(t);
+      EXPECT_NEAR(energy.kinetic.nearest() + energy.elastic.nearest(), 0.5 * M * V * V,
+                  1e-15 * M * V * V);
+    }
+  }
+  EXPECT_GT(again, 1);
+  // By the trapezoidal rule with 2e5 steps in 2 tau.
+  const auto heavy = make("mass-on-bar", {{"M", 10.0}, {"t_end", 12.0}});
+  EXPECT_NEAR(constant(heavy, "t_opens1"), 9.79106, 2e-5);
+  EXPECT_NEAR(constant(heavy, "t_closes2"), 10.36420, 2e-5);
+  EXPECT_NEAR(constant(heavy, "t_opens2"), 10.76598, 2e-5);
+  EXPECT_NEAR(constant(heavy, "v_after"), -0.969839, 2e-6);
+}
+
 TEST(BarCases, ABarBetweenStopsFollowsItsCharacteristics) {
   Box box(93);
   for (int trial = 0; trial < trials(10); ++trial) {

@@ -6,11 +6,13 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "clackers/base/testing/refusal.hpp"
 #include "clackers/cases/case.hpp"
 #include "clackers/cases/testing/constants.hpp"
 #include "clackers/exact/certified/digits.hpp"
+#include "clackers/exact/elliptic/swing.hpp"
 #include "clackers/exact/testing/real.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
 #include "clackers/model/nonlinear_springs.hpp"
@@ -410,7 +412,109 @@ TEST(EllipticCases, DigitsOfPendulaInTurnAreThoseOfTheirTaylorSeries) {
   EXPECT_LE(abs(Real(Real(two.after.v[0]) - second.fastest)), tight);
   EXPECT_LE(abs(Real(Real(one.impulse) - first.fastest)), tight);
 }
+
+// Within their bounds, which are small, at 12 instants: the motion before and after impacts by the series of one swing
+// after the other. The first begins at u0, and mass 1 and 2 take turns where there are two.
+void expect_swings(const Case& test_case, const std::vector<Expansion<Real>>& masses,
+                   const Real& step, const Real& u0, double eta) {
+  const auto& motion = *test_case.motion;
+  const auto size = motion.envelope(0.0);
+  Bouncer<Real> known{masses[0], step, eta, 0, u0, 0};
+  std::size_t mass = 0;
+  for (int k = 1; k <= 12; ++k) {
+    const double t = motion.end() * k / 13.0;
+    known.run_to(t);
+    while (masses.size() == 2 && known.impacts > 0) {
+      mass = 1 - mass;
+      known = {masses[mass], step, eta, known.first, 0, known.fastest};
+      known.run_to(t);
+    }
+    const auto i = Eigen::Index(mass);
+    const auto now = motion.at(t, Side::right), bound = motion.error_bound(t);
+    const Real sign = mass == 0 ? 1 : -1;
+    EXPECT_LE(abs(Real(sign * now.u[i] - known.u)), bound.u[i]) << t;
+    EXPECT_LE(abs(Real(sign * now.v[i] - known.v)), bound.v[i]) << t;
+    EXPECT_LT(bound.u[i], 5e-15 * size.u[i]) << t;
+    EXPECT_LT(bound.v[i], 5e-15 * size.v[i]) << t;
+  }
+}
+
+// With 90 digits, of which up to 32 are lost on the way: as many as E has in common with that of the separatrix.
+TEST(EllipticCases, KeepTheirDigitsNearTheUnstableRest) {
+  Box box(115);
+  for (int trial = 0; trial < trials(1); ++trial) {
+    SCOPED_TRACE(testing::Message() << "seed 115, trial " << trial);
+    const double l = box.decades(-1.0, 1.0), g = box.decades(-1.0, 1.0),
+                 theta = std::min(3.14159, std::numbers::pi - box.decades(-6.0, -2.0)),
+                 eta = box.one_in(2) ? 1.0 : 1.0 - box.decades(-8.0, -1.0),
+                 end = 45.0 * std::sqrt(l / g);
+    const Real step = 0.5 * std::sqrt(l / g);
+    expect_swings(
+        make("pendulum", {{"l", l}, {"g", g}, {"theta0", theta}, {"eta", eta}, {"t_end", end}}),
+        {pendulum<Real>(l, g)}, step, Real(l) * Real(theta), eta);
+    expect_swings(
+        make("two-pendula", {{"m1", 0.1}, {"l1", l}, {"g", g}, {"theta1", theta}, {"t_end", end}}),
+        {pendulum<Real>(l, g)}, step, Real(l) * Real(theta), 1.0);
+    const double height = l * std::pow(std::sin(0.5 * theta), 2),
+                 l2 = height * (1.0 + box.decades(-8.0, -2.0));
+    expect_swings(make("pendulum-cradle",
+                       {{"l1", l}, {"l2", l2}, {"g", g}, {"theta1", theta}, {"t_end", end}}),
+                  {pendulum<Real>(l, g), pendulum<Real>(l2, g)}, step, Real(l) * Real(theta), 1.0);
+    const double m = box.decades(-1.0, 1.0), k = box.decades(-1.0, 1.0),
+                 u0 = box.decades(-1.0, 1.0), w = std::sqrt(k / m),
+                 b = -k / (u0 * u0) * (1.0 - box.decades(-14.0, -2.0));
+    expect_swings(
+        make("duffing-stop",
+             {{"m", m}, {"k", k}, {"b", b}, {"u0", u0}, {"eta", eta}, {"t_end", 80.0 / w}}),
+        {duffing<Real>(Real(k) / Real(m), Real(b) / Real(m))}, Real(0.25 / w), Real(u0), eta);
+  }
+  for (const double b : {-0.999999999, -0.99999999999, -0x1.fffffffffffffp-1})
+    expect_swings(make("duffing-stop", {{"b", b}, {"eta", 1.0}, {"t_end", 100.0}}),
+                  {duffing<Real>(1, b)}, Real(0.25), Real(1), 1.0);
+  // By elliptic functions with 80 digits, of another library.
+  const auto swung =
+      make("pendulum",
+           {{"l", 43.822}, {"g", 4.6203}, {"theta0", 3.1415}, {"eta", 1.0}, {"t_end", 300.0}});
+  EXPECT_NEAR(swung.motion->at(97.8753825459573, Side::right).u[0], 120.45927916121450, 3e-14);
+}
 #endif
+
+TEST(EllipticCases, EnvelopesOfSofteningSpringsAreTheLargestSizes) {
+  for (const double b : {-0.2, -0.99}) {
+    const auto swung = make("duffing-stop", {{"b", b}, {"eta", 1.0}, {"t_end", 30.0}});
+    double largest = 0.0;
+    for (int i = 0; i <= 3000; ++i)
+      largest = std::max(largest, std::abs(swung.motion->at(i * 0.01, Side::right).a[0]));
+    EXPECT_NEAR(swung.motion->envelope(0.0).a[0], largest, 1e-4) << b;
+  }
+}
+
+TEST(EllipticCases, FastPeriodsAreNotLongerThanThoseOfSmallMotion) {
+  const auto slow = make("pendulum", {{"theta0", 3.0}}), fast = make("duffing-stop", {{"b", 2.0}}),
+             two = make("two-pendula");
+  EXPECT_DOUBLE_EQ(slow.damped_periods[0], 2.0 * std::numbers::pi / std::sqrt(9.81));
+  EXPECT_EQ(fast.damped_periods[0], constant(fast, "T_0"));
+  for (const int i : {0, 1})
+    EXPECT_DOUBLE_EQ(
+        two.damped_periods[std::size_t(i)],
+        2.0 * std::numbers::pi * std::sqrt(constant(two, "l" + std::to_string(i + 1)) / 9.81));
+}
+
+TEST(EllipticCases, AlmostPlasticImpactsAreTaken) {
+  for (const auto* name : {"pendulum", "duffing-stop"}) {
+    const auto test_case = make(name, {{"eta", 1e-100}});
+    EXPECT_GT(test_case.motion->impact_count(test_case.motion->end()), 4) << name;
+  }
+}
+
+TEST(EllipticCases, FunctionsOfAnOpenModulusAreBounded) {
+  using numerics::Bounded;
+  const Bounded open(1.0L, std::numeric_limits<long double>::infinity());
+  for (const auto& modulus : {exact::Modulus<Bounded>{open, 0.1}, {0.9, open}}) {
+    const auto [sn, cn, dn] = exact::jacobi<Bounded>(1.0, modulus);
+    for (const auto& x : {sn, cn, dn}) EXPECT_EQ(upper(x).value, 1.0L);
+  }
+}
 
 TEST(EllipticCases, HaveTheirTextbookPeriods) {
   const auto ratio = [](double degrees) {
@@ -444,6 +548,8 @@ TEST(EllipticCases, AreRefusedWithTheReason) {
   EXPECT_REFUSED(make("two-pendula", {{"m1", 2.0}}), "not-admissible", "k1/K(k1) < 0.403");
   EXPECT_REFUSED(make("two-pendula", {{"theta1", 3.2}}), "out-of-range", "stand");
   EXPECT_REFUSED(make("pendulum-cradle", {{"l2", 0.2}}), "not-admissible", "over the top");
+  EXPECT_REFUSED(make("pendulum-cradle", {{"theta1", 1e-5}, {"l2", 1e-8}, {"t_end", 1e8}}),
+                 "not-admissible", "known to 1e-6");
 }
 
 }  // namespace

@@ -182,6 +182,7 @@ TEST(FrictionCases, ForcedSlidersSwingAsTheirTaylorSeries) {
       ASSERT_LT(trial, 20 * (made + 20));
     }
   }
+  expect_simulated(box, make("forced-slider", {{"F", 0.8174}}));  // it nearly stops where it turns
 }
 
 #ifdef CLACKERS_HAS_ARB
@@ -428,7 +429,10 @@ TEST(FrictionCases, AreRefusedWithTheReason) {
   EXPECT_REFUSED(make("slider", {{"F", 1e-11}}), "out-of-range", "half swings");
   EXPECT_REFUSED(make("belt", {{"Fd", 1.0}}), "not-admissible", "no stick and slip");
   EXPECT_REFUSED(make("forced-slider", {{"W", 1.0}}), "not-admissible", "resonance");
-  EXPECT_REFUSED(make("forced-slider", {{"F", 0.9}}), "not-admissible", "stop");
+  EXPECT_REFUSED(make("forced-slider", {{"F", 0.9}}), "not-admissible", "stop",
+                 "F < 0.81740638571088");
+  EXPECT_REFUSED(make("forced-slider", {{"F", 0.81741}}), "not-admissible", "turning points");
+  EXPECT_NO_THROW(make("forced-slider", {{"F", 0.817406}}));
   // sqrt(k/m)/W is 5, 5.02 and 6.98: at an odd number and near two.
   const auto expect_resonance = [](double W, std::string_view harmonic) {
     EXPECT_REFUSED(make("forced-slider", {{"W", W}}), "not-admissible", harmonic, "resonance");

@@ -139,9 +139,11 @@ void build_pressed(Case& test_case, const Values& value, double) {
   const double end = problem.end, square = k / m - 0.25 * (c / m) * (c / m);
   test_case.damped_periods = {square > 0.0 ? 2.0 * pi / std::sqrt(square) : end};
   if (f1 > 0.0) test_case.damped_periods[0] = std::min(test_case.damped_periods[0], 2.0 * pi / nu);
-  test_case.constants = {{"omega", std::sqrt(k / m), "rad/s", "undamped frequency without contact"},
-                         {"u_static", k > 0.0 ? -F / k : -INFINITY, "m",
-                          "where the mass would rest without the stop"}};
+  test_case.constants = {
+      {"omega", std::sqrt(k / m), "rad/s", "undamped frequency without contact"}};
+  if (k > 0.0)
+    test_case.constants.push_back(
+        {"u_static", -F / k, "m", "where the mass would rest without the stop"});
   if (c == 0.0 && f1 == 0.0 && eta < 1.0 && (u0 > 0.0 || v0 > 0.0))
     add_undamped_rest(test_case, m, k, F, eta);
   use_flights(test_case);

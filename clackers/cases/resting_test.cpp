@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -140,6 +141,11 @@ TEST(RestingCases, PressedOscillatorsRestWhenTheirFlightsAreOver) {
                                                        {"t_end", 1.3 * double(known.rest)}});
     expect_flights(box, test_case, known, m);
   }
+}
+
+TEST(RestingCases, AMassWithoutASpringHasNoStaticDisplacement) {
+  const auto free = make("pressed-oscillator", {{"k", 0.0}});
+  EXPECT_TRUE(std::ranges::none_of(free.constants, [](auto& c) { return c.name == "u_static"; }));
 }
 
 TEST(RestingCases, AHarmonicForceReleasesWhereItBalancesTheConstantOne) {

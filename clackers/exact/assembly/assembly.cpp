@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "clackers/base/mixed_bits.hpp"
 #include "clackers/exact/assembly/modal_shape.hpp"
 #include "clackers/exact/assembly/shaped_parameters.hpp"
 #include "clackers/exact/pair/high_precision.hpp"
@@ -13,14 +14,6 @@ namespace clackers::exact {
 namespace {
 
 using numerics::DoubleDouble;
-
-// The finalizer of SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014).
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
 
 // A whole number from 0 to count - 1, from 16 bits of `bits`.
 double draw(std::uint64_t bits, int place, std::uint64_t count) {
@@ -45,7 +38,7 @@ std::vector<double> solve(const AssemblyData& data, std::size_t window, const au
 }  // namespace
 
 AssemblyData::AssemblyData(const AssemblyParameters& p)
-    : seed_(mixed(static_cast<std::uint64_t>(p.seed))),
+    : seed_(mixed_bits(static_cast<std::uint64_t>(p.seed))),
       coupling_(p.coupling),
       dof_(2 * static_cast<std::size_t>(p.pairs)) {
   const std::size_t width = coupling_ == Coupling::chain   ? 1
@@ -55,7 +48,7 @@ AssemblyData::AssemblyData(const AssemblyParameters& p)
 }
 
 AssemblyData::Pair AssemblyData::pair(std::size_t j) const {
-  const auto bits = mixed(seed_ ^ (2 * j + 1));
+  const auto bits = mixed_bits(seed_ ^ (2 * j + 1));
   return {0.5 + draw(bits, 0, 25) / 16.0, (1.0 + draw(bits, 1, 16)) / 8.0,
           0.5 + draw(bits, 2, 17) / 16.0};
 }
@@ -74,7 +67,7 @@ std::size_t AssemblyData::first_column(std::size_t i) const {
 
 double AssemblyData::entry(std::size_t i, std::size_t j) const {
   if (i == j) return 1.0;
-  return unit_ * (draw(mixed(mixed(seed_ + 2 * i) ^ j), 0, 17) - 8.0);
+  return unit_ * (draw(mixed_bits(mixed_bits(seed_ + 2 * i) ^ j), 0, 17) - 8.0);
 }
 
 std::unique_ptr<const ShapedMotion> make_assembly(const AssemblyParameters& p,

@@ -116,7 +116,7 @@ long long ShapedMotion::impact_count(double t) const {
 
 model::MotionImpact ShapedMotion::impact(long long index) const {
   const auto count = impact_count(c_.end);
-  if (index < 1 || index > count) refuse_impact(c_, index, count);
+  model::require_impact("motion", index, count, c_.end);
   const auto number = (index - 1) / contacts_at_once() + 1;
   const auto& contacts =
       pattern_.contacts[static_cast<std::size_t>(number - 1) % pattern_.contacts.size()];

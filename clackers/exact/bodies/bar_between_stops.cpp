@@ -8,15 +8,6 @@ namespace clackers::exact {
 using model::Side;
 using numerics::Bounded;
 
-namespace {
-
-Bounded lesser(const Bounded& a, const Bounded& b) {
-  return {std::min(a.value, b.value), std::max(a.error, b.error)};
-}
-Bounded from_zero(const Bounded& a) { return {std::max(0.0L, a.value), a.error}; }
-
-}  // namespace
-
 BarBetweenStops::BarBetweenStops(const BarBetweenStopsParameters& p)
     : p_(p),
       wave_(BarContact::Wave::of(p.bar)),
@@ -64,13 +55,13 @@ Bounded BarBetweenStops::force(double t, Side side) const {
 Bounded BarBetweenStops::impulse(double t, Side) const {
   const auto now = phase(t);
   return wave_.impedance * Bounded(p_.V) *
-         (Bounded(now.before) * contact_ + from_zero(lesser(now.s, contact_)));
+         (Bounded(now.before) * contact_ + positive_part(min(now.s, contact_)));
 }
 
 auto BarBetweenStops::energy(double t) const -> Energy {
   const auto half = Bounded(0.5) * wave_.impedance * Bounded(p_.V) * Bounded(p_.V);
   // The front's way to the end that it started from.
-  const auto s = phase(t).s, held = from_zero(lesser(s, contact_ - s));
+  const auto s = phase(t).s, held = positive_part(min(s, contact_ - s));
   return {half * (wave_.transit - held), half * held, 0.0};
 }
 

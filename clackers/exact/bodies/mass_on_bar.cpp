@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
-#include <cmath>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/bodies/bar_waves.hpp"
 
@@ -28,6 +27,32 @@ Polynomial combined(double a, const Polynomial& x, double b, const Polynomial& y
   return sum;
 }
 
+Polynomial product(const Polynomial& x, const Polynomial& y) {
+  if (x.empty() || y.empty()) return {};
+  Polynomial xy(x.size() + y.size() - 1);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t k = 0; k < y.size(); ++k) xy[i + k] = xy[i + k] + x[i] * y[k];
+  return xy;
+}
+
+// p(from + sign x), a polynomial in x.
+Polynomial shifted(const Polynomial& p, const Wide& from, double sign) {
+  Polynomial q;
+  for (std::size_t i = p.size(); i-- > 0;) {
+    q.emplace_back();
+    for (std::size_t k = q.size(); k-- > 0;)
+      q[k] = from * q[k] + (k > 0 ? Wide(sign) * q[k - 1] : p[i]);
+  }
+  return q;
+}
+
+// The integral from 0.
+Polynomial integrated(const Polynomial& p) {
+  Polynomial sum(1);
+  for (const auto& x : p) sum.push_back(x / Wide(double(sum.size())));
+  return sum;
+}
+
 Wide polynomial(const Polynomial& p, const Wide& x) {
   Wide sum;
   for (std::size_t i = p.size(); i-- > 0;) sum = sum * x + p[i];
@@ -47,9 +72,7 @@ MassOnBar::MassOnBar(const MassOnBarParameters& parameters, std::string_view who
   if (!(ratio >= 0.01 && ratio <= 100.0))
     refuse(who, "M", p_.M,
            fmt::format("0.01 to 100 times the mass of the bar, {:.6g} kg", (z_ * tau_).nearest()));
-  follow_contact(who);
-  reflect(who);
-  require_one_contact(who);
+  follow(who);
 }
 
 Wide MassOnBar::value(const Polynomial& coefficients, const Wide& s) const {
@@ -57,103 +80,140 @@ Wide MassOnBar::value(const Polynomial& coefficients, const Wide& s) const {
   return exp(-(kappa_ * s)) * polynomial(coefficients, s / tau_);
 }
 
-// G with G' - kappa G the polynomial: exp(-kappa s) G is the integral.
-Polynomial MassOnBar::antiderivative(const Polynomial& p) const {
+// The derivative of exp(-kappa s) p is exp(-kappa s) times this.
+Polynomial MassOnBar::derivative(const Polynomial& p) const {
+  Polynomial d(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    d[i] = -(kappa_ * p[i]);
+    if (i + 1 < p.size()) d[i] = d[i] + Wide(double(i + 1)) * p[i + 1] / tau_;
+  }
+  return d;
+}
+
+// G with G' - rate G the polynomial: exp(-rate s) G is the integral.
+Polynomial MassOnBar::antiderivative(const Polynomial& p, const Wide& rate) const {
   Polynomial g(p.size());
   Wide above;
   for (std::size_t i = p.size(); i-- > 0;) {
-    g[i] = (above - p[i]) / kappa_;
+    g[i] = (above - p[i]) / rate;
     above = Wide(double(i)) * g[i] / tau_;
   }
   return g;
 }
 
-// P and Q of v and a: Q+ = -+(2 P - Q), P+' = kappa Q+ with v continuous; contact ends where P = Q.
-void MassOnBar::follow_contact(std::string_view who) {
-  constexpr int most_intervals = 200, parts = 256;
-  const auto twice = Wide(2.0) * tau_;
-  Polynomial P{Wide(p_.V)}, Q;
-  out_.push_back({start_ - twice - twice, start_, {}, {}});
-  for (int j = 0; j < most_intervals; ++j) {
-    const auto origin = start_ + Wide(double(j)) * twice;
-    const auto force = combined(1.0, P, -1.0, Q);
-    const auto contact_force = [&](const WideReal& s) {
-      return polynomial(force, Wide(s, 0) / tau_).value;
-    };
-    WideReal inside = 0, outside = 0;
-    bool ends = !(contact_force(0) > 0);
-    for (int i = 1; i <= parts && !ends; ++i) {
-      outside = twice.value * i / parts;
-      ends = !(contact_force(outside) > 0);
-      if (!ends) inside = outside;
-    }
-    if (!ends || outside > 0) out_.push_back({origin, origin, combined(2.0, P, -1.0, Q), {}});
-    if (ends) {
-      for (int i = 0; i < 260 && outside > 0; ++i) {
-        const WideReal middle = (inside + outside) / 2;
-        (contact_force(middle) > 0 ? inside : outside) = middle;
-      }
-      // What the rounding of the polynomial moves its root by.
-      Wide s(outside, 0);
-      if (outside > 0) {
-        const auto at_root = polynomial(force, s / tau_);
-        const WideReal step = twice.value * WideReal(1e-20),
-                       slope = (contact_force(outside - step) - contact_force(outside)) / step;
-        s.error = (at_root.error + abs(at_root.value)) * 2 / slope;
-      }
-      end_of_contact_ = origin + s;
-      last_speed_ = value(P, s);
-      out_.push_back({end_of_contact_, origin, Q, {}});
-      return;
-    }
-    // On to the next interval.
-    const auto arriving =
-        combined(back_.value > 0 ? 2.0 : -2.0, P, back_.value > 0 ? -1.0 : 1.0, Q);
-    Polynomial next{value(P, twice)};
-    for (std::size_t i = 0; i < arriving.size(); ++i)
-      next.push_back(kappa_ * tau_ * arriving[i] / Wide(double(i + 1)));
-    P = std::move(next);
-    Q = arriving;
-  }
-  refuse(who, "M", p_.M, "a mass that leaves the bar within 400 L/c", {}, "not-admissible");
+void MassOnBar::send(const Wide& t, const Wide& origin, Polynomial o, std::string_view who) {
+  if (out_.size() == longest_list)
+    refuse(who, "t_end", p_.end, "a run of at most 20000 pieces of waves", {}, "not-admissible");
+  auto integral = antiderivative(o, kappa_);
+  const auto& last = out_.back();
+  const auto before = last.before + value(last.integral, t - last.origin);
+  const auto from = value(integral, t - origin);
+  out_.push_back({t, origin, std::move(o), std::move(integral), before - from});
 }
 
-// Afterwards the end is free: what arrives goes out again.
-void MassOnBar::reflect(std::string_view who) {
+void MassOnBar::refuse_soft_touch(const Wide& t, std::string_view who) const {
+  refuse(
+      who, "M", p_.M,
+      fmt::format(
+          "a mass that certainly touches the bar or does not; soon after t = {:.9g} s this is open",
+          t.nearest()),
+      "Change M.", "not-admissible");
+}
+
+// By halves, until the sign of the function or of its rate is certain over a whole interval, as a number with this
+// error.
+std::optional<Wide> MassOnBar::first_fall(const Course& f, const Wide& begin, const Wide& end,
+                                          bool rises, std::string_view who) const {
+  const auto rate = derivative(f.p), curvature = derivative(rate);
+  const auto search = [&](const auto& self, const WideReal& from, const WideReal& to,
+                          int depth) -> std::optional<Wide> {
+    const Wide span((from + to) / 2, (to - from) / 2);
+    const auto slope = f.b + value(rate, span);
+    if ((at(f, middle(span)) - upper(slope) * Wide(span.error, 0)).is_positive())
+      return std::nullopt;
+    if (slope.is_positive()) return std::nullopt;
+    if (rises && from == begin.value && value(curvature, span).is_positive()) return std::nullopt;
+    if ((-slope).is_positive()) {
+      const auto last = at(f, {to, 0});
+      if (last.is_positive()) return std::nullopt;
+      if ((-last).is_positive()) {
+        WideReal above = from, below = to;
+        for (int i = 0; i < 260; ++i) {
+          const WideReal half = (above + below) / 2;
+          (at(f, {half, 0}).value > 0 ? above : below) = half;
+        }
+        // The function falls at least at the least slope of the interval.
+        const auto left = upper(at(f, {below, 0}));
+        return Wide(below, upper(left / (upper(slope) - Wide(2 * slope.error, 0))).value);
+      }
+    }
+    if (depth == 0) refuse_soft_touch(out_.back().t, who);
+    if (const auto found = self(self, from, span.value, depth - 1)) return found;
+    return self(self, span.value, to, depth - 1);
+  };
+  return search(search, begin.value, end.value, 200);
+}
+
+// From one change of the contact or of the arriving wave to the next. P and Q of v and a: P' = kappa Q with v
+// continuous while they touch and 2 P - Q goes out; otherwise the end is free and what arrives goes out.
+void MassOnBar::follow(std::string_view who) {
   const auto twice = Wide(2.0) * tau_;
-  const auto first = std::ranges::find_if(out_, [&](const Piece& piece) {
-    return piece.t.value + twice.value > end_of_contact_.value;
-  });
-  for (auto i = std::size_t(first - out_.begin());
-       (out_[i].t + twice).value < WideReal(p_.end) + twice.value; ++i) {
-    Piece next = out_[i];
-    next.t = next.t + twice;
-    next.origin = next.origin + twice;
-    for (auto& x : next.coefficients) x = back_ * x;
-    out_.push_back(std::move(next));
-    if (out_.size() > longest_list)
-      refuse(who, "t_end", p_.end, "a run of at most 20000 pieces of waves", {}, "not-admissible");
-  }
-  for (std::size_t i = 0; i + 1 < out_.size(); ++i) {
-    const auto g = antiderivative(out_[i].coefficients);
-    out_[i + 1].integral = out_[i].integral + value(g, out_[i + 1].t - out_[i].origin) -
-                           value(g, out_[i].t - out_[i].origin);
+  // A change at the end itself is one of the run.
+  const Wide last(WideReal(p_.end) * (1 + epsilon), 0);
+  Wide t = start_, speed = p_.V, gap;
+  bool closed = true, opens = false;
+  out_.push_back({t - twice - twice, t, {}, {}, {}});
+  phases_ = {{out_[0].t, speed, false}, {t, speed, true}};
+  for (std::size_t in = 0; closed || t.value < last.value;) {
+    const auto origin = out_[in].origin + twice, s = t - origin;
+    const auto Q = combined(back_, out_[in].coefficients, 0.0, {});
+    Polynomial P, force;
+    if (closed) {
+      P = integrated(Q);
+      for (auto& x : P) x = kappa_ * tau_ * x;
+      P[0] = speed * exp(kappa_ * s) - polynomial(P, s / tau_);
+      force = combined(1.0, P, -1.0, Q);
+      if (const auto now = polynomial(force, s / tau_); !now.is_positive()) {
+        if (!(-now).is_positive()) refuse_soft_touch(t, who);
+        closed = false, opens = true;
+        phases_.push_back({t, speed, closed});
+      }
+    }
+    send(t, origin, closed ? combined(2.0, P, -1.0, Q) : Q, who);
+    const auto arrives = out_[in + 1].t + twice,
+               next = closed || arrives.value < last.value ? arrives : last;
+    // While they touch v - a, otherwise the gap.
+    const auto& moved = out_.back().integral;
+    const Course course =
+        closed ? Course{force, {}, {}} : Course{moved, gap + speed * s - value(moved, s), -speed};
+    const auto zero = first_fall(course, s, next - origin, opens, who);
+    const auto until = zero ? *zero : next - origin;
+    if (closed)
+      speed = value(P, until);
+    else
+      gap = zero ? Wide() : at(course, until);
+    t = zero ? origin + *zero : next;
+    if (zero) {
+      closed = !closed;
+      phases_.push_back({t, speed, closed});
+    } else {
+      ++in;
+    }
+    opens = zero && !closed;
   }
 }
 
-// At 64 instants a transit; the gap opens without speed where the far end is fixed.
-void MassOnBar::require_one_contact(std::string_view who) const {
-  const double from = end_of_contact_.nearest(), step = tau_.nearest() / 64.0;
-  for (double t = from + step; t <= p_.end; t += step) {
-    const auto end = Wide(0.5) * (sum_of_out(t) + back_ * sum_of_out(Wide(t) - Wide(2.0) * tau_));
-    const auto mass = Wide(0.5) * (sum_of_out(end_of_contact_) +
-                                   back_ * sum_of_out(end_of_contact_ - Wide(2.0) * tau_)) +
-                      last_speed_ * (Wide(t) - end_of_contact_);
-    if (!(end.value > mass.value))
-      refuse(who, "t_end", p_.end,
-             fmt::format("t_end < {:.6g} s, before the bar strikes the mass once more", t), {},
-             "not-admissible");
-  }
+std::vector<BarContact::Event> MassOnBar::events() const {
+  std::vector<BarContact::Event> list;
+  for (auto i = 1u; i < phases_.size(); ++i)
+    list.push_back({phases_[i].closed, narrowed(phases_[i].t)});
+  return list;
+}
+
+BarMotion::Changes MassOnBar::changes() const {
+  Changes found;
+  for (const auto& event : events()) found.first.push_back(event.t);
+  return found;
 }
 
 Wide MassOnBar::outgoing(const Wide& t, Side side, const WideReal& slack) const {
@@ -161,72 +221,75 @@ Wide MassOnBar::outgoing(const Wide& t, Side side, const WideReal& slack) const 
   return value(piece.coefficients, t - piece.origin);
 }
 
-Wide MassOnBar::sum_of_out(const Wide& t) const {
-  const auto& piece = piece_at(out_, t, Side::right, 0);
-  const auto g = antiderivative(piece.coefficients);
-  return piece.integral + value(g, t - piece.origin) - value(g, piece.t - piece.origin);
+auto MassOnBar::wave(const Wide& t, Side side, const WideReal& slack) const -> Wave {
+  const auto &piece = piece_at(out_, t, side, slack), &exact = piece_at(out_, t, Side::right, 0);
+  const auto s = t - piece.origin, decay = exp(-(kappa_ * s));
+  return {decay * polynomial(piece.coefficients, s / tau_),
+          &exact == &piece ? piece.before + decay * polynomial(piece.integral, s / tau_)
+                           : exact.before + value(exact.integral, t - exact.origin)};
 }
 
 BarMotion::Point MassOnBar::at(std::size_t, double x, double t, Side side) const {
-  const auto late = Wide(x) / c_, half = Wide(0.5), twice = Wide(2.0) * tau_;
-  const auto from = Wide(t) - late, to = Wide(t) + late - twice;
-  const auto o = outgoing(from, side, half_spacing(t)),
-             a = back_ * outgoing(to, side, half_spacing(t));
-  return {narrowed(half * (sum_of_out(from) + back_ * sum_of_out(to))), narrowed(half * (o + a)),
-          narrowed(Wide(p_.bar.rho) * c_ * half * (a - o))};
+  const auto late = Wide(x) / c_, half = Wide(0.5);
+  const auto o = wave(Wide(t) - late, side, half_spacing(t)),
+             sent = wave(Wide(t) + late - Wide(2.0) * tau_, side, half_spacing(t));
+  const auto a = Wide(back_) * sent.value;
+  return {narrowed(half * (o.sum + Wide(back_) * sent.sum)), narrowed(half * (o.value + a)),
+          narrowed(Wide(p_.bar.rho) * c_ * half * (a - o.value))};
 }
 
 Bounded MassOnBar::force(double t, Side side) const {
   const auto slack = half_spacing(t);
+  if (!piece_at(phases_, t, side, slack).closed) return 0.0;
   const auto o = outgoing(t, side, slack),
-             a = back_ * outgoing(Wide(t) - Wide(2.0) * tau_, side, slack);
-  const bool is_over =
-      t > end_of_contact_.nearest() || (t == end_of_contact_.nearest() && side == Side::right);
-  return is_over ? Bounded(0.0) : narrowed(Wide(0.5) * z_ * (o - a));
+             a = Wide(back_) * outgoing(Wide(t) - Wide(2.0) * tau_, side, slack);
+  return narrowed(Wide(0.5) * z_ * (o - a));
 }
 
-Wide MassOnBar::mass_speed(const Wide& t, Side side) const {
-  if (t.value >= end_of_contact_.value) return last_speed_;
-  if (t.value < start_.value) return p_.V;
-  return Wide(0.5) * (outgoing(t, side, 0) + back_ * outgoing(t - Wide(2.0) * tau_, side, 0));
+Wide MassOnBar::mass_speed(double t) const {
+  const auto& phase = piece_at(phases_, t, Side::right, 0);
+  if (!phase.closed) return phase.speed;
+  return Wide(0.5) * (outgoing(t, Side::right, 0) +
+                      Wide(back_) * outgoing(Wide(t) - Wide(2.0) * tau_, Side::right, 0));
 }
 
 Bounded MassOnBar::impulse(double t, Side) const {
-  return narrowed(Wide(p_.M) * (Wide(p_.V) - mass_speed(t, Side::right)));
+  return narrowed(Wide(p_.M) * (Wide(p_.V) - mass_speed(t)));
 }
 
-// The squares of the waves by Gauss's rule between fronts, where they are smooth.
-BarMotion::Energy MassOnBar::energy(double t) const {
-  const long double tau = narrowed(tau_).value, now = t, z = narrowed(z_).value;
-  std::vector<long double> fronts{0.0L, tau};
-  for (const auto& piece : out_) {
-    const auto from = narrowed(piece.t).value;
-    for (const auto late : {now - from, from + 2.0L * tau - now})
-      if (late > 0.0L && late < tau) fronts.push_back(late);
-  }
-  std::ranges::sort(fronts);
-  long double kinetic = 0.0L, elastic = 0.0L;
+// Between fronts the squares of the waves are exp(-+2 kappa s) times polynomials; in their product the exponentials
+// cancel.
+BarMotion::Energy MassOnBar::energy(double time) const {
+  const Wide t = time, begin = t - Wide(2.0) * tau_;
+  std::vector<Wide> fronts{0.0, tau_};
+  for (const auto& piece : out_)
+    for (const auto& late : {t - piece.t, piece.t - begin})
+      if (late.value > 0 && late.value < tau_.value) fronts.push_back(late);
+  std::ranges::sort(fronts, {}, &Wide::value);
+  Wide squares, both;
   for (std::size_t i = 0; i + 1 < fronts.size(); ++i) {
-    const auto square = [&](long double sign) {
-      return boost::math::quadrature::gauss<long double, 20>::integrate(
-          [&](long double late) {
-            const auto o = narrowed(outgoing(Wide(WideReal(now - late), 0), Side::right, 0)).value,
-                       a = narrowed(back_ *
-                                    outgoing(Wide(WideReal(now + late), 0) - Wide(2.0) * tau_,
-                                             Side::right, 0))
-                               .value,
-                       sum = 0.5L * (a + sign * o);
-            return sum * sum;
-          },
-          fronts[i], fronts[i + 1]);
+    const auto from = fronts[i], length = fronts[i + 1] - from, inside = from + Wide(0.5) * length;
+    // exp(-+kappa s) times these, s from the front on.
+    const auto local = [&](const Wide& at, double sign) {
+      const auto& piece = piece_at(out_, at + Wide(sign) * (inside - from), Side::right, 0);
+      const auto s = at - piece.origin, decay = exp(-(kappa_ * s));
+      auto p = shifted(piece.coefficients, s / tau_, sign);
+      for (auto& factor : p) factor = decay * factor;
+      return p;
     };
-    kinetic += 0.5L * z * square(1.0L);
-    elastic += 0.5L * z * square(-1.0L);
+    const auto o = local(t - from, -1.0), a = local(begin + from, 1.0);
+    const auto x = length / tau_;
+    const auto square = [&](const Polynomial& p, double sign) {
+      const auto rate = Wide(2.0 * sign) * kappa_;
+      const auto g = antiderivative(product(p, p), rate);
+      return exp(-(rate * length)) * polynomial(g, x) - polynomial(g, 0.0);
+    };
+    squares = squares + square(o, -1.0) + square(a, 1.0);
+    both = both + Wide(back_) * tau_ * polynomial(integrated(product(o, a)), x);
   }
-  const auto v = narrowed(mass_speed(t, Side::right)).value;
-  kinetic += 0.5L * p_.M * v * v;
-  const auto rounded = [](long double x) { return Bounded(x, 1e-15L * std::abs(x)); };
-  return {rounded(kinetic), rounded(elastic), 0.0};
+  const auto share = Wide(0.125) * z_, v = mass_speed(time);
+  return {narrowed(share * (squares + Wide(2.0) * both) + Wide(0.5) * Wide(p_.M) * v * v),
+          narrowed(share * (squares - Wide(2.0) * both)), 0.0};
 }
 
 }  // namespace clackers::exact

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -19,16 +20,16 @@ struct MassOnBarParameters {
 };
 
 /// While they touch M v' = -z (v - a) with the velocity v of both, the arriving wave a and the impedance z of
-/// the bar; o = 2 v - a goes out, and a(t) = -+o(t - 2 tau) comes back from a fixed or a free end. Between
-/// multiples of 2 tau all of them are exp(-z t/M) times a polynomial, whose coefficients are followed in 256
+/// the bar; o = 2 v - a goes out, and a(t) = -+o(t - 2 tau) comes back from a fixed or a free end. While they do
+/// not o = a. Between fronts all of them are exp(-z t/M) times a polynomial, whose coefficients are followed in 256
 /// bits with running error bounds. Source: A. Barre de Saint-Venant, A. Flamant (1883); derivation:
 /// docs/manual/explanation/derivations/bars.md.
 class MassOnBar final : public BarMotion {
  public:
   using Wide = numerics::Wide;
 
-  /// Throws InputError unless 0.01 <= M/m <= 100 of the mass m of the bar, for more than 20,000 pieces, and
-  /// where they would meet once more before the end.
+  /// Throws InputError unless 0.01 <= M/m <= 100 of the mass m of the bar, for more than 20,000 pieces, and where
+  /// it is not certain whether they touch.
   MassOnBar(const MassOnBarParameters& parameters, std::string_view who);
 
   double end() const override { return p_.end; }
@@ -41,34 +42,57 @@ class MassOnBar final : public BarMotion {
   BarContact::Wave wave() const {
     return {numerics::narrowed(tau_), numerics::narrowed(c_), numerics::narrowed(z_)};
   }
-  /// When the contact begins and ends [s]; the velocity of the mass after it.
-  Bounded begins() const { return numerics::narrowed(start_); }
-  Bounded ends() const { return numerics::narrowed(end_of_contact_); }
-  Bounded rebound() const { return numerics::narrowed(last_speed_); }
+  /// All contacts that begin up to the end, the first in any case, with the ends of all.
+  std::vector<BarContact::Event> events() const;
+  /// The velocity of the mass after the last of them [m/s].
+  Bounded rebound() const { return numerics::narrowed(phases_.back().speed); }
 
  private:
-  Changes changes() const override { return {{begins(), ends()}, {}}; }
+  Changes changes() const override;
   using WideReal = numerics::WideReal;
-  // exp(-kappa s) times a polynomial in s/tau, s the time from `origin` on, until the next piece.
+  using Polynomial = std::vector<Wide>;
+  // exp(-kappa s) times a polynomial in s/tau, s the time from `origin` on, until the next piece; `before` plus
+  // exp(-kappa s) times `integral` is the integral from t = -infinity on.
   struct Piece {
     Wide t, origin;
-    std::vector<Wide> coefficients;
-    Wide integral;  // of all pieces before
+    Polynomial coefficients, integral;
+    Wide before;
+  };
+  // Until the next one.
+  struct Phase {
+    Wide t, speed;  // of the mass at t
+    bool closed = false;
+  };
+  // c + b s + exp(-kappa s) p(s/tau)
+  struct Course {
+    Polynomial p;
+    Wide c, b;
   };
 
-  Wide value(const std::vector<Wide>& coefficients, const Wide& s) const;
-  std::vector<Wide> antiderivative(const std::vector<Wide>& coefficients) const;
-  void follow_contact(std::string_view who);
-  void reflect(std::string_view who);
-  void require_one_contact(std::string_view who) const;
+  Wide value(const Polynomial& coefficients, const Wide& s) const;
+  Wide at(const Course& f, const Wide& s) const { return f.c + f.b * s + value(f.p, s); }
+  Polynomial derivative(const Polynomial& p) const;
+  Polynomial antiderivative(const Polynomial& p, const Wide& rate) const;
+  void follow(std::string_view who);
+  void send(const Wide& t, const Wide& origin, Polynomial o, std::string_view who);
+  // The first zero after `begin`, where f is not negative, and with `rises` nor is its rate.
+  std::optional<Wide> first_fall(const Course& f, const Wide& begin, const Wide& end, bool rises,
+                                 std::string_view who) const;
+  [[noreturn]] void refuse_soft_touch(const Wide& t, std::string_view who) const;
   Wide outgoing(const Wide& t, model::Side side, const WideReal& slack) const;
-  Wide sum_of_out(const Wide& t) const;
-  Wide mass_speed(const Wide& t, model::Side side) const;
+  // With its integral from t = -infinity on.
+  struct Wave {
+    Wide value, sum;
+  };
+  Wave wave(const Wide& t, model::Side side, const WideReal& slack) const;
+  Wide mass_speed(double t) const;
 
   MassOnBarParameters p_;
-  Wide tau_, c_, z_, kappa_, back_;  // back_: of the far end, -1 fixed and 1 free
-  Wide start_, end_of_contact_, last_speed_;
-  std::vector<Piece> out_;  // the first before all waves, 0
+  Wide tau_, c_, z_, kappa_;
+  double back_ = 0.0;  // of the far end, -1 fixed and 1 free
+  Wide start_;
+  std::vector<Piece> out_;     // the first before all waves, 0
+  std::vector<Phase> phases_;  // the first before contact
 };
 
 }  // namespace clackers::exact

@@ -1,19 +1,11 @@
 #include "clackers/exact/bodies/string_on_obstacle.hpp"
 
-#include <algorithm>
-
 namespace clackers::exact {
 
 using model::Side;
 using numerics::Bounded, numerics::narrowed, numerics::Wide, numerics::WideReal;
 
 namespace {
-
-Wide lesser(const Wide& a, const Wide& b) {
-  return {std::min(a.value, b.value), std::max(a.error, b.error)};
-}
-Wide from_zero(const Wide& a) { return {std::max(WideReal(0), a.value), a.error}; }
-Wide absolute(const Wide& a) { return {abs(a.value), a.error}; }
 
 // s less whole periods, within [from, from + period).
 Wide folded(const Wide& s, int period, int from) {
@@ -30,7 +22,7 @@ StringOnObstacle::StringOnObstacle(const StringOnObstacleParameters& p)
       impulse_(Wide(4.0) * Wide(p.T) * Wide(p.H) / speed_),
       place_(p.place),
       rest_(Wide(1.0) - place_),
-      near_(lesser(place_, rest_)) {}
+      near_(min(place_, rest_)) {}
 
 auto StringOnObstacle::time(double t, Side side) const -> Time {
   return {Wide(t) / tau_, side, WideReal(half_spacing(t)) / tau_.value};
@@ -43,8 +35,8 @@ bool StringOnObstacle::Time::is_past(const Wide& now, const Wide& instant) const
 }
 
 Wide StringOnObstacle::shape(const Wide& s) const {
-  const auto now = folded(s, 2, -1), distance = absolute(now);
-  const auto height = lesser(distance / place_, (Wide(1.0) - distance) / rest_);
+  const auto now = folded(s, 2, -1), distance = abs(now);
+  const auto height = min(distance / place_, (Wide(1.0) - distance) / rest_);
   return now.value < 0 ? -height : height;
 }
 
@@ -63,7 +55,7 @@ auto StringOnObstacle::at(std::size_t, double x, double t, Side side) const -> P
   const bool is_below = now.is_past(s, touch) && !now.is_past(s, Wide(2.0) - touch);
   const auto half = Wide(is_below ? -0.5 : 0.5) * Wide(p_.H);
   const auto first = slope(ahead, now), second = slope(behind, now);
-  auto u = absolute(half * (shape(ahead) - shape(behind)));
+  auto u = abs(half * (shape(ahead) - shape(behind)));
   if (u.value <= u.error) u.value = 0;  // at the ends and on the obstacle
   const bool is_held = t == 0.0 && side == Side::left;
   return {narrowed(u), is_held ? Bounded(0.0) : narrowed(half * (first - second) / tau_),
@@ -82,15 +74,15 @@ Bounded StringOnObstacle::impulse(double t, Side side) const {
   const auto now = time(t, side);
   const auto s = folded(now.s, 1, 0), since = s - near_, lasts = Wide(1.0) - Wide(2.0) * near_;
   const Wide before(now.s.value - s.value, 0);
-  const Wide part = lasts.value > 0 ? lesser(from_zero(since / lasts), 1.0)
+  const Wide part = lasts.value > 0 ? min(positive_part(since / lasts), 1.0)
                                     : Wide(now.is_past(s, near_) ? 1.0 : 0.0);
   return narrowed(impulse_ * (before + part));
 }
 
 // Points between the two corners move, all with one speed.
 auto StringOnObstacle::energy(double t) const -> Energy {
-  const auto s = absolute(folded(Wide(t) / tau_, 2, -1));
-  const auto moves = Wide(2.0) * lesser(lesser(s, Wide(1.0) - s), near_);
+  const auto s = abs(folded(Wide(t) / tau_, 2, -1));
+  const auto moves = Wide(2.0) * min(min(s, Wide(1.0) - s), near_);
   const auto product = place_ * rest_,
              all = Wide(0.5) * Wide(p_.T) * Wide(p_.H) * Wide(p_.H) / (Wide(p_.L) * product),
              kinetic = all * moves / (Wide(4.0) * product);

@@ -1,20 +1,9 @@
 #include "clackers/exact/bodies/string_over_point.hpp"
 
-#include <algorithm>
-
 namespace clackers::exact {
 
 using model::Side;
 using numerics::Bounded, numerics::narrowed, numerics::Wide, numerics::WideReal;
-
-namespace {
-
-Wide lesser(const Wide& a, const Wide& b) {
-  return {std::min(a.value, b.value), std::max(a.error, b.error)};
-}
-Wide from_zero(const Wide& a) { return {std::max(WideReal(0), a.value), a.error}; }
-
-}  // namespace
 
 StringOverPoint::StringOverPoint(const StringOverPointParameters& p)
     : p_(p),
@@ -38,7 +27,7 @@ double StringOverPoint::wave(const Wide& s, Side side, const WideReal& slack) co
 
 Wide StringOverPoint::fallen(const Wide& s) const {
   const auto now = phase(s);
-  return Wide(now.before, 0) * falls_ + lesser(now.s, falls_);
+  return Wide(now.before, 0) * falls_ + min(now.s, falls_);
 }
 
 auto StringOverPoint::at(std::size_t, double x, double t, Side side) const -> Point {
@@ -63,15 +52,14 @@ Bounded StringOverPoint::force(double t, Side side) const {
 Bounded StringOverPoint::impulse(double t, Side) const {
   const auto now = phase(Wide(t) / tau_);
   const auto contact = Wide(2.0) - falls_;
-  const auto touched = Wide(now.before, 0) * contact + from_zero(lesser(now.s - falls_, contact));
+  const auto touched = Wide(now.before, 0) * contact + positive_part(min(now.s - falls_, contact));
   return narrowed(force_ * tau_ * touched);
 }
 
 // Each point moves with 0 or H/tau, and is inclined by 2 H/L where it does not.
 auto StringOverPoint::energy(double t) const -> Energy {
-  const auto s = phase(Wide(t) / tau_).s, rest = period_ - s, middle = s - rest;
-  const Wide distance{abs(middle.value), middle.error};
-  const auto moves = from_zero(lesser(lesser(s, rest), lesser(falls_, distance)));
+  const auto s = phase(Wide(t) / tau_).s, rest = period_ - s;
+  const auto moves = positive_part(min(min(s, rest), min(falls_, abs(s - rest))));
   const auto all = Wide(2.0) * Wide(p_.T) * Wide(p_.H) * Wide(p_.H) / Wide(p_.L);
   return {narrowed(all * moves), narrowed(all * (Wide(1.0) - moves)), 0.0};
 }

@@ -14,13 +14,16 @@ namespace clackers::exact {
 template <class Real>
 struct StoppedFlight {
   Real start, speed;  ///< at the beginning, which of flight 0 lies before t = 0
+  /// 1 - E/E* with the energies of the flight and of the separatrix; E* < 0 for a hardening spring.
+  Real margin;
   Modulus<Real> modulus;
   Real frequency, size;  ///< of the argument of the elliptic functions; amplitude
   Real duration() const { return Real(2.0) * quarter_period(modulus) / frequency; }
 };
 
 /// An oscillator above a stop at its equilibrium, from rest, in numbers that bound their errors: flights of the speeds
-/// V eta^j, which `Formulas` makes by flight(speed), and acceleration(u). docs/manual/explanation/derivations/elliptic.md.
+/// V eta^j, which `Formulas` makes by flight(speed, margin), and acceleration(u), largest at strongest().
+/// docs/manual/explanation/derivations/elliptic.md.
 template <class Real, class Formulas>
 struct StoppedFormulas {
   static constexpr std::size_t most_flights = 100'000;
@@ -46,8 +49,12 @@ struct StoppedFormulas {
     Real start = Real(0.5) * first.duration();
     first.start = -start;
     flights = {std::move(first)};
+    // The margin by a sum of positive numbers.
+    const Real ratio = eta, lost = (Real(1.0) - ratio) * (Real(1.0) + ratio);
     while (flights.size() <= most_flights) {
-      auto next = own().flight(Real(eta) * flights.back().speed);
+      const auto& last = flights.back();
+      auto next =
+          eta == 1.0 ? last : own().flight(ratio * last.speed, lost + ratio * ratio * last.margin);
       next.start = start;
       start = start + next.duration();
       flights.push_back(std::move(next));
@@ -65,23 +72,27 @@ struct PendulumFormulas : StoppedFormulas<Real, PendulumFormulas<Real>> {
 
   explicit PendulumFormulas(const PendulumParameters& p) : l(p.l), g(p.g), w(sqrt(g / l)) {
     this->eta = p.eta;
-    auto first = flight_of(Swing<Real>::of_angle(l, w, p.theta0));
-    first.size = l * Real(p.theta0);
-    this->follow(std::move(first), p.end);
+    const auto first = Swing<Real>::of_angle(l, w, p.theta0);
+    const Real& complement = first.modulus.complement;
+    this->follow(
+        {0.0, first.speed(), complement * complement, first.modulus, w, l * Real(p.theta0)}, p.end);
   }
-  StoppedFlight<Real> flight(const Real& speed) const {
-    return flight_of(Swing<Real>::of_speed(l, w, speed));
+  StoppedFlight<Real> flight(const Real& speed, const Real& margin) const {
+    const Swing<Real> swing{l, w, {speed / (Real(2.0) * l * w), sqrt(margin)}};
+    return {0.0, speed, margin, swing.modulus, w, swing.arc()};
   }
   Real acceleration(const Real& u) const { return -(g * sin(u / l)); }
+  Real strongest() const { return Real(0.5) * Real::pi() * l; }
   StatesOf<Real> state(long long k, const Real& s) const {
     return {{Swing<Real>{l, w, this->flights[std::size_t(k)].modulus}.at(s)}};
   }
-
- private:
-  StoppedFlight<Real> flight_of(const Swing<Real>& swing) const {
-    return {0.0, swing.speed(), swing.modulus, w, swing.arc()};
-  }
 };
+
+/// Of the spring: its force at the start over u0.
+template <class Number>
+Number secant_stiffness(const DuffingParameters& p) {
+  return Number(p.k) + Number(p.b) * p.u0 * p.u0;
+}
 
 template <class Real>
 struct DuffingFormulas : StoppedFormulas<Real, DuffingFormulas<Real>> {
@@ -92,15 +103,22 @@ struct DuffingFormulas : StoppedFormulas<Real, DuffingFormulas<Real>> {
       : square(Real(p.k) / Real(p.m)), cubic(Real(p.b) / Real(p.m)), softens(p.b < 0.0) {
     this->m = p.m;
     this->eta = p.eta;
-    const Real A = p.u0;
-    this->follow(flight_of(A, A * sqrt(square + Real(0.5) * cubic * A * A)), p.end);
+    const Real root = difference<Real>(
+        [&]<class Number>() -> Number { return secant_stiffness<Number>(p) / p.k; });
+    this->follow(flight(Real(p.u0) * sqrt(Real(0.5) * square * (Real(1.0) + root)), root * root),
+                 p.end);
   }
-  /// The amplitude of a speed is found without cancellation for either sign of b.
-  StoppedFlight<Real> flight(const Real& speed) const {
-    const Real v = speed * speed, root = sqrt(square * square + Real(2.0) * cubic * v);
-    return flight_of(sqrt(Real(2.0) * v / (square + root)), speed);
+  /// root = 1 + cubic A^2/square, mean = 1 + cubic A^2/(2 square) with the amplitude A: no differences.
+  StoppedFlight<Real> flight(const Real& speed, const Real& margin) const {
+    const Real root = sqrt(margin), mean = Real(0.5) * (Real(1.0) + root),
+               A = speed / sqrt(square * mean), half = abs(Real(0.5) * cubic * A * A / square);
+    const Real &part = softens ? mean : root, &rest = softens ? root : mean;
+    return {0.0, speed, margin, {sqrt(half / part), sqrt(rest / part)}, sqrt(square * part), A};
   }
   Real acceleration(const Real& u) const { return -(square * u + cubic * u * u * u); }
+  Real strongest() const {
+    return softens ? sqrt(-(square / (Real(3.0) * cubic))) : Real(INFINITY);
+  }
   StatesOf<Real> state(long long k, const Real& s) const {
     const auto& now = this->flights[std::size_t(k)];
     const auto [sn, cn, dn] = jacobi<Real>(now.frequency * s, now.modulus);
@@ -109,18 +127,6 @@ struct DuffingFormulas : StoppedFormulas<Real, DuffingFormulas<Real>> {
                v = softens ? rate * cn * dn : c * rate * cn / (dn * dn);
     return {{{u, v, acceleration(u)}}};
   }
-
- private:
-  StoppedFlight<Real> flight_of(const Real& A, const Real& speed) const {
-    const Real force = cubic * A * A, half = Real(0.5) * force;
-    // Of a softening spring force/2 is negative.
-    const Real some = square + half, all = square + force, L2 = softens ? some : all;
-    return {0.0,
-            speed,
-            {sqrt((softens ? -half : half) / L2), sqrt((softens ? all : some) / L2)},
-            sqrt(L2),
-            A};
-  }
 };
 
 /// The modulus near `guess` with k/K(k) = ratio, by chords; enclosed by the signs of the difference on both sides. All
@@ -128,7 +134,7 @@ struct DuffingFormulas : StoppedFormulas<Real, DuffingFormulas<Real>> {
 template <class Real>
 Real modulus_of_ratio(const Real& ratio, double guess) {
   const auto rest_at = [&](const Real& k) {
-    return k / quarter_period(Swing<Real>::of_speed(0.5, 1.0, k).modulus) - ratio;
+    return k / quarter_period(Modulus<Real>::of(k)) - ratio;
   };
   const Real step = 1e-5 * guess,
              slope = middle((rest_at(guess + step) - rest_at(guess - step)) / (step + step));
@@ -160,8 +166,8 @@ struct TwoPendulaFormulas {
     auto& [first, second] = swings;
     first = Swing<Real>::of_angle(l1, sqrt(Real(p.g) / l1), p.theta1);
     const Real K1 = quarter_period(first.modulus);
-    second = Swing<Real>::of_speed(
-        0.5, 1.0, modulus_of_ratio<Real>(m1 / Real(p.m2) * first.modulus.k / K1, guess));
+    second.modulus =
+        Modulus<Real>::of(modulus_of_ratio<Real>(m1 / Real(p.m2) * first.modulus.k / K1, guess));
     const Real stretch = quarter_period(second.modulus) / K1;
     second.w = first.w * stretch;
     second.l = l1 / (stretch * stretch);
@@ -171,7 +177,11 @@ struct TwoPendulaFormulas {
     const Real l1 = p.l1, l2 = p.l2, g = p.g;
     auto& [first, second] = swings;
     first = Swing<Real>::of_angle(l1, sqrt(g / l1), p.theta1);
-    second = Swing<Real>::of_speed(l2, sqrt(g / l2), first.speed());
+    const Real margin = difference<Real>([&]<class Number>() -> Number {
+      const Number k1 = sin(Number(0.5 * p.theta1));
+      return Number(1.0) - k1 * k1 * p.l1 / p.l2;
+    });
+    second = {l2, sqrt(g / l2), {first.modulus.k * sqrt(l1 / l2), sqrt(margin)}};
     T1 = first.duration();
     T2 = second.duration();
   }

@@ -23,7 +23,7 @@ std::shared_ptr<const model::NonlinearSprings> one_spring(Law law, double stiffn
 }
 
 const DuffingParameters& checked(const DuffingParameters& p, std::string_view who) {
-  if (p.b < 0.0 && !(-p.b * p.u0 * p.u0 < p.k))
+  if (!secant_stiffness<numerics::Wide>(p).is_positive())
     refuse(who, "b", p.b, fmt::format("b > -k/u0^2 = {}", -p.k / (p.u0 * p.u0)),
            "At the start the spring would pull away from the stop.", "not-admissible");
   return p;
@@ -60,8 +60,10 @@ template <template <class> class FormulasOf>
 model::Kinematics StoppedOscillator<FormulasOf>::envelope(double t) const {
   const auto k = this->flight_at(t, model::Side::left);
   const auto& now = formulas_.flights[std::size_t(k)];
-  return {scalar(now.size.nearest()), scalar(now.speed.nearest()),
-          scalar(std::abs(formulas_.acceleration(now.size).nearest()))};
+  const double size = now.size.nearest(),
+               strongest = std::min(size, formulas_.strongest().nearest());
+  return {scalar(size), scalar(now.speed.nearest()),
+          scalar(std::abs(formulas_.acceleration(strongest).nearest()))};
 }
 
 template class StoppedOscillator<PendulumFormulas>;
@@ -69,13 +71,6 @@ template class StoppedOscillator<DuffingFormulas>;
 
 Pendulum::Pendulum(const PendulumParameters& p, std::string_view who) : StoppedOscillator(p, who) {
   problem_.system.nonlinear = one_spring(Law::sine, (formulas_.g / formulas_.l).nearest(), p.l);
-}
-
-model::Kinematics Pendulum::envelope(double t) const {
-  auto size = StoppedOscillator::envelope(t);
-  // Beyond a quarter turn the weight is largest on the way.
-  if (size.u[0] > 1.5707 * formulas_.l.nearest()) size.a[0] = formulas_.g.nearest();
-  return size;
 }
 
 Duffing::Duffing(const DuffingParameters& p, std::string_view who)

@@ -34,7 +34,6 @@ class StoppedOscillator : public FlightsBy<Flights, FormulasOf> {
 class Pendulum final : public StoppedOscillator<PendulumFormulas> {
  public:
   Pendulum(const PendulumParameters& parameters, std::string_view who);
-  model::Kinematics envelope(double t) const override;
 };
 
 /// m u'' = -k u - b u^3.

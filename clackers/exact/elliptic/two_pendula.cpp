@@ -19,12 +19,12 @@ constexpr double turning_modulus = 0.837452960268874;
 constexpr double largest_turn_ratio = 0.40314018970565;
 constexpr double most_swings = 1e9;
 
-double over_quarter_period(double k) {
-  return k / quarter_period(Swing<Bounded>::of_speed(0.5, 1.0, k).modulus).nearest();
+double over_quarter_period(const Modulus<Bounded>& modulus) {
+  return (modulus.k / quarter_period(modulus)).nearest();
 }
 
 double first_ratio(const TwoPendulaParameters& p) {
-  return p.m1 / p.m2 * over_quarter_period(std::sin(0.5 * p.theta1));
+  return p.m1 / p.m2 * over_quarter_period(Swing<Bounded>::of_angle(p.l1, 1.0, p.theta1).modulus);
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ double second_modulus(const TwoPendulaParameters& p) {
   double low = 0.0, high = turning_modulus;
   for (int i = 0; i < 80; ++i) {
     const double middle = 0.5 * (low + high);
-    (over_quarter_period(middle) < ratio ? low : high) = middle;
+    (over_quarter_period(Modulus<Bounded>::of(middle)) < ratio ? low : high) = middle;
   }
   return low;
 }

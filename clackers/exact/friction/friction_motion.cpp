@@ -137,15 +137,15 @@ ForcedSlider::ForcedSlider(const ForcedSliderParameters& p, std::string_view who
   if (!abs(f.square).is_positive())
     refuse(who, "W", p.W, "W other than sqrt(k/m)", "At resonance the amplitude grows for ever.",
            "not-admissible");
-  if (!f.left.is_positive())
-    refuse(who, "F", p.F, fmt::format("F < P |Vd/H| = {:.3g}", abs(f.peak / f.H).nearest()),
-           "Friction is too large for a motion that turns without a stop." + near_resonance(f.b),
+  // |P cos phi - k x0| > F with x0 of the same F.
+  const auto square = f.b * f.b,
+             most = abs(square * f.peak) / sqrt(Bounded(1.0) + square * square * f.H * f.H);
+  if (!(most - f.F).is_positive() || !f.left.is_positive())
+    refuse(who, "F", p.F, fmt::format("F < {}", most.nearest()),
+           "The mass would stop at its turning points." +
+               (f.left.is_positive() ? std::string() : near_resonance(f.b)),
            "not-admissible");
   phi_ = double(std::atan2(f.sin_phi.value, f.cos_phi.value));
-  const auto most = abs(f.P * f.cos_phi - f.k * f.x0);
-  if (!(most - f.F).is_positive())
-    refuse(who, "F", p.F, fmt::format("F < |P cos phi - k x0| = {}", most.nearest()),
-           "The mass would stop at its turning points.", "not-admissible");
   require_sliding(who);
   problem_.system.add_load = model::HarmonicLoad({{0, p.P, p.W, phi_}});
   problem_.start.u[0] = f.x0.nearest();
@@ -158,8 +158,8 @@ long long ForcedSlider::near_flight(double t) const {
   return flights_within(t, formulas_.T, most_flights);
 }
 
-// u' < 0 within the first half period, by pieces: from their middles with the largest acceleration, at both
-// ends, where u' = 0, by the acceleration with the largest rate of it.
+// u' < 0 within the first half period, by pieces in turn: from their middles with the largest acceleration; by u'' < 0
+// after u' <= 0 at their beginning, and by u'' > 0 before u' = 0 at the end, with the largest rate of it.
 void ForcedSlider::require_sliding(std::string_view who) const {
   const auto& f = formulas_;
   const long double own = (f.F * sqrt(Bounded(1.0) + f.tan * f.tan)).value / f.k.value,
@@ -170,7 +170,7 @@ void ForcedSlider::require_sliding(std::string_view who) const {
   const auto slides = [&](const auto& self, long double from, long double to, int depth) -> bool {
     const long double half = 0.5L * (to - from);
     if (state(0, {from + half, 0.0L})[0].v.value + most_a * half < 0.0L) return true;
-    if (from == 0.0L && state(0, 0.0)[0].a.value + most_jerk * to < 0.0L) return true;
+    if (state(0, {from + half, 0.0L})[0].a.value + most_jerk * half < 0.0L) return true;
     if (to == T && state(0, f.T)[0].a.value - most_jerk * (to - from) > 0.0L) return true;
     return depth < 24 && self(self, from, from + half, depth + 1) &&
            self(self, from + half, to, depth + 1);

@@ -1,11 +1,7 @@
 #include "clackers/exact/orbit/flights.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-
-#include "clackers/base/error.hpp"
 
 namespace clackers::exact {
 
@@ -69,13 +65,7 @@ long long Flights::impact_count(double t) const {
 }
 
 model::MotionImpact Flights::impact(long long index) const {
-  const auto count = impact_count(end());
-  if (index < 1 || index > count)
-    throw InputError(
-        fmt::format("motion: impact {} was asked for; allowed: {}.", index,
-                    count == 0 ? std::string("none, since nothing collides up to the end")
-                               : fmt::format("1 to {}, those up to t = {} s", count, end())),
-        "beyond-last-impact");
+  model::require_impact("motion", index, impact_count(end()), end());
   const auto instant_of_impact = instant(index);
   const auto limit = limits(index);
   const auto kinematics = [this](const States& states) {

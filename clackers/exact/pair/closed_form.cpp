@@ -118,7 +118,7 @@ long long ClosedForm::impact_count(double t) const {
 
 model::MotionImpact ClosedForm::impact(long long index) const {
   const auto count = impact_count(c_.end);
-  if (index < 1 || index > count) refuse_impact(c_, index, count);
+  model::require_impact("motion", index, count, c_.end);
   const auto k = static_cast<double>(index);
   model::MotionImpact hit;
   hit.index = index;

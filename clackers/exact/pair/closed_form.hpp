@@ -31,9 +31,6 @@ numerics::Neighbour impact_instant(const FlightConstants& c, double k);
 /// 0 than to the smallest subnormal.
 numerics::Scaled power(const numerics::DoubleDouble& halvings);
 
-/// Throws InputError (beyond-last-impact).
-[[noreturn]] void refuse_impact(const FlightConstants& c, long long index, long long count);
-
 /// A motion made of flights u_i = b_i E cos(p_i theta) between impacts at t_k = (k - 1/2) T, in
 /// which all masses pass equilibrium together. The base of all motions of this module.
 ///

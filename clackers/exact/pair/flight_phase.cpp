@@ -1,11 +1,6 @@
 #include "clackers/exact/pair/closed_form.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <string>
-
-#include "clackers/base/error.hpp"
 
 namespace clackers::exact {
 
@@ -60,14 +55,6 @@ Phase phase_at(const FlightConstants& c, double t, model::Side side) {
 numerics::Scaled power(const DoubleDouble& halvings) {
   if (halvings.hi < -4000.0) return {};
   return numerics::exp2(halvings);
-}
-
-void refuse_impact(const FlightConstants& c, long long index, long long count) {
-  throw InputError(
-      fmt::format("motion: impact {} was asked for; allowed: {}.", index,
-                  count == 0 ? std::string("none, since nothing collides up to the end")
-                             : fmt::format("1 to {}, those up to t = {} s", count, c.end)),
-      "beyond-last-impact");
 }
 
 }  // namespace clackers::exact

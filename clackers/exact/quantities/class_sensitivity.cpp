@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -121,9 +123,8 @@ std::unique_ptr<Sensitivity> class_sensitivity(const ClosedForm& motion,
   const auto found = std::ranges::find(all, parameter, &Named::name);
   if (found == all.end()) {
     const auto names = class_parameters(motion);
-    std::string list;
-    for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
-    refuse_name("class parameter to differentiate by", parameter, names, list);
+    refuse_name("class parameter to differentiate by", parameter, names,
+                fmt::format("{}", fmt::join(names, ", ")));
   }
   if (parameter == "eta" && motion.flight().eta == 0.0 &&
       motion.phase(motion.end(), Side::right).flight > 0.0)

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/testing/impact_simulator.hpp"
 

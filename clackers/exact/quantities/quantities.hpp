@@ -50,9 +50,6 @@ Conditioning conditioning(const FrequencyRatio& ratio, double r, double eta);
 /// which admissibility implies.
 double detuning_rate(const FrequencyRatio& ratio, double r);
 
-/// Synchrony counts as lost when impacts are spaced wrongly by this part.
-inline constexpr double lost_synchrony = 0.1;
-
 /// The impact after which a disturbance of relative size `size` (0 < size < 1) at the start has
 /// grown to lost_synchrony: ln(0.1/size)/ln(1/eta), rounded up, at least 1; infinity for eta = 1,
 /// where it does not grow; 0 when it is that large already. To first order.

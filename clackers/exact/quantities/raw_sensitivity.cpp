@@ -227,11 +227,9 @@ std::vector<std::string> raw_parameters(const ClosedForm& motion) {
 
 std::unique_ptr<Sensitivity> raw_sensitivity(const ClosedForm& motion, std::string_view parameter) {
   const auto names = raw_parameters(motion);
-  if (std::ranges::find(names, parameter) == names.end()) {
-    std::string list;
-    for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
-    refuse_name("parameter to differentiate by", parameter, names, list);
-  }
+  if (std::ranges::find(names, parameter) == names.end())
+    refuse_name("parameter to differentiate by", parameter, names,
+                fmt::format("{}", fmt::join(names, ", ")));
   if (motion.flight().eta == 0.0 && motion.phase(motion.end(), Side::right).flight > 0.0)
     throw InputError(
         fmt::format(
