@@ -1,6 +1,7 @@
 #include "clackers/diagnose/diagnose.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -29,10 +30,20 @@ bool is_of_right_methods(const Diagnosis& found) {
          found.code == Code("impact-tolerance").name() || found.code == Code("period-error").name();
 }
 
+// The same fault of another mass, contact or link is another cause.
+bool is_same(const Diagnosis& one, const Diagnosis& other) {
+  const auto same_number = [&](const char* name) {
+    const double a = one.fact(name), b = other.fact(name);
+    return a == b || (std::isnan(a) && std::isnan(b));
+  };
+  return one.code == other.code && one.text == other.text && same_number("mass") &&
+         same_number("contact");
+}
+
 void add(std::vector<Diagnosis>& all, std::vector<Diagnosis> more) {
   for (auto& one : more)
     if (one.confidence >= least_confidence &&
-        std::ranges::find(all, one.code, &Diagnosis::code) == all.end())
+        std::ranges::none_of(all, [&](const Diagnosis& known) { return is_same(known, one); }))
       all.push_back(std::move(one));
 }
 

@@ -19,10 +19,12 @@ struct CaseParameter {
   std::string name;
   double value = 0.0;
   std::string unit{};
+  bool is_setting =
+      true;  ///< of the case by its name, as --set takes it; not a number of a contact
 };
 
 /// The motion of the case with these parameters in place of its own; nullptr where they are not
-/// allowed.
+/// allowed or make another number of masses.
 using MotionOf =
     std::function<std::shared_ptr<const model::Motion>(std::span<const CaseParameter>)>;
 
@@ -48,7 +50,8 @@ struct DiagnosisInput {
   CaseFamily family{};  ///< no parameters: other values of them are not looked for
 };
 
-/// The causes that explain the histories, strongest first, each at most once; empty for a correct
+/// The causes that explain the histories, strongest first, each code at most once for a mass, a
+/// contact and a text; empty for a correct
 /// solver whose steps are fine.
 std::vector<Diagnosis> diagnose(const DiagnosisInput& question);
 

@@ -69,6 +69,20 @@ TEST(Diagnose, CausesComeStrongestFirst) {
   EXPECT_GT(all[0].confidence, all[1].confidence);
 }
 
+TEST(Diagnosis, AClockThatIsALittleFastHasNoOtherUnit) {
+  const auto of = [](double value, const char* unit) {
+    return sentence_of({.code = "time-unit", .value = value, .text = unit});
+  };
+  EXPECT_EQ(of(1000.0, "ms"), "Times are in ms, 1000 times seconds: convert them to seconds.");
+  EXPECT_TRUE(of(1.0001, "").starts_with("Times run 0.01 % too fast: "));
+  EXPECT_TRUE(of(0.999, "").starts_with("Times run 0.1 % too slow: "));
+}
+
+TEST(Diagnosis, TheWholeIsAHundredPerCent) {
+  const auto text = sentence_of({.code = "commensurate-steps", .evidence = {{"share", 1.0}}});
+  EXPECT_NE(text.find(", 100 % of all,"), std::string::npos) << text;
+}
+
 TEST(Diagnosis, LateStepsHideNoWrongLimitAndLateSecondsDo) {
   Diagnosis late, limit;
   late.code = "time-shifted";

@@ -25,6 +25,7 @@ struct Fact {
 ///     expected               what the case has in place of `value`
 ///     mass, impact, contact  which one, from 1
 ///     files                  histories that show the cause with the same value
+///     causes                 number of causes that `gain` is of together; missing for one
 ///     order                  power of the step that `value` or the error falls with
 ///     floor                  error relative to the envelope below which nothing falls
 ///     step                   step at which something begins or ends [s]
@@ -36,7 +37,8 @@ struct Fact {
 ///     time                   where it happens [s]
 inline constexpr auto fact_names = std::to_array<std::string_view>(
     {"gain", "runner-up-gain", "uncertainty", "expected", "mass", "impact", "contact", "files",
-     "order", "floor", "step", "steps", "penetration", "stiffness", "digits", "share", "time"});
+     "causes", "order", "floor", "step", "steps", "penetration", "stiffness", "digits", "share",
+     "time"});
 
 /// One cause.
 struct Diagnosis {

@@ -54,8 +54,12 @@ Difference difference(const ErrorCurve& other, const ErrorCurve& finest, double 
 bool may_be_chance(const Observation& finest, const Limit& limit, double scale, int other_grids,
                    const model::ImpactProblem<>& problem) {
   constexpr int enough = 3;
+  constexpr double noticeable_gap = 1e-5;
   if (other_grids >= enough) return false;
   const auto located = locate_impacts(finest, problem);
+  // One gap at impacts of other delays is none.
+  const auto gap = common_gap({&located, 1});
+  if (gap && std::abs(gap->value) > noticeable_gap * scale) return false;
   const double delay = located.rms_delay();
   if (!located.is_resolved() || delay > 1.05 * finest.facts.step) return false;
   double displaced = 0.0;

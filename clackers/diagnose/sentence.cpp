@@ -24,7 +24,9 @@ std::string with_uncertainty(double value, double uncertainty) {
 }
 
 std::string percent(double share, int digits = 3) {
-  return std::isnan(share) ? std::string() : short_number(100.0 * share, digits) + " %";
+  if (std::isnan(share)) return {};
+  // Not 1e2.
+  return short_number(100.0 * share, share >= 0.995 ? std::max(digits, 3) : digits) + " %";
 }
 
 // The value as a share, which is in per cent or not.
@@ -89,7 +91,19 @@ std::string word(std::string_view name, const Diagnosis& cause) {
   if (name == "runs")
     return fmt::format("runs {} too {}", percent(std::abs(share_of(cause))),
                        cause.value > 0.0 ? "fast" : "slow");
+  if (name == "whose_load")
+    return std::isnan(cause.fact("mass"))
+               ? "Each load"
+               : fmt::format("The load on mass {}", plain(cause.fact("mass")));
   if (name == "load") return load(cause);
+  if (name == "clock" && cause.text.empty())
+    return fmt::format("run {} too {}", percent(std::abs(cause.value - 1.0)),
+                       cause.value > 1.0 ? "fast" : "slow");
+  if (name == "clock")
+    return fmt::format("are in {}, {} times seconds", cause.text, plain(cause.value));
+  if (name == "clock_cure")
+    return cause.text.empty() ? "check the step that is taken and the one that is printed"
+                              : "convert them to seconds";
   if (name == "shift") return shift(cause);
   if (name == "late") return cause.value > 0.0 ? "late" : "early";
   if (name == "later") return cause.value > 0.0 ? "later" : "earlier";
@@ -98,6 +112,9 @@ std::string word(std::string_view name, const Diagnosis& cause) {
   if (name == "impacts") return fmt::format("Impact {} is", plain(cause.value, 9));
   if (name == "number")
     return plain(std::isnan(cause.value) ? cause.fact("impact") : cause.value, 9);
+  if (name == "level" && cause.text == "tolerance")
+    return "tolerance = " + plain(cause.fact("step"), 3);
+  if (name == "level") return fmt::format("h = {} s", plain(cause.fact("step"), 3));
   if (name == "quantity") return quantity(cause);
   if (name == "unit_text") return unit_text(cause);
   if (name == "text") return cause.text;
@@ -149,6 +166,8 @@ std::string gain_text(const Diagnosis& cause) {
   auto text = gain < explains_all
                   ? fmt::format(" ({} of the error stays unexplained", percent(1.0 / gain, 2))
                   : fmt::format(" ({} times closer", times(gain));
+  if (cause.fact("causes") > 1.0)
+    text += fmt::format(" by {} causes together", plain(cause.fact("causes")));
   const double other = cause.fact("runner-up-gain");
   if (!cause.runner_up.empty() && cause.runner_up != cause.code && other >= 2.0)
     text += fmt::format("; {}: {} times", cause.runner_up, times(other));

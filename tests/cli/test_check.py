@@ -35,7 +35,7 @@ class Verdicts(CheckTest):
         self.checked(*files, "--expect", "proper:2", exit_code=1)
         self.checked(*files, "--expect", "reduced:1")
         self.assertEqual(self.assessment(self.checked(*files))["verdict"], "not claimed")
-        self.checked(files[0], "--expect", "proper:2", exit_code=3)
+        self.checked(self.converging(levels=1)[0], "--expect", "proper:2", exit_code=3)
 
     def test_go_by_the_tolerance(self):
         file = self.converging(levels=1)[0]
@@ -80,6 +80,12 @@ class Verdicts(CheckTest):
         none = self.write("none.csv", lines[0] + "\n")
         record = self.checked(self.history("exact.csv"), "--events", none, exit_code=1)
         self.assertEqual(self.notes(record)["no-impacts-reported"], ([6], ""))
+
+    def test_on_events_in_milliseconds_is_refused(self):
+        times = [1000 * float(row["t"]) for row in rows(self.hits)]
+        events = self.write("ms.csv", "\n".join(["t", *map(repr, times)]) + "\n")
+        self.refused("check", self.history("exact.csv"), "--events", events, code="time-unit",
+                     says=("ms.csv: Times are in milliseconds, 1000 times seconds",))
 
     def test_with_the_exact_events_agree(self):
         events = self.write("hits.csv", self.hits)
@@ -174,6 +180,7 @@ class Against(CheckTest):
         self.against(*files, "--tolerance", "0.0065")
         self.against(*files, "--tolerance", "0.0063", exit_code=1)
         self.assertIn("Agreement is no proof", run("check", *files).stdout)
+        self.assertEqual([each["set"] for each in self.against(*files)[1]], ["h0.01.csv", "exact.csv"])
 
     def test_tolerances_stand_in_place_of_steps(self):
         files = self.converging(levels=5)
@@ -197,9 +204,21 @@ class Against(CheckTest):
         for words in ("of mass 2 at t = 7.01 s", "Agreement is no proof"):
             self.assertIn(words, text)
 
+    def test_a_part_of_the_motion_is_said_and_leaves_the_tolerance_undecided(self):
+        exact = self.history("exact.csv")
+        short = self.history("short.csv", until=10)
+        done = run("check", exact, "--against", short)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("Compared from 0 to 10 s only; the first set goes from 0 to 20 s.", " ".join(done.stdout.split()))
+        self.assertEqual(run("check", short, "--against", exact, "--tolerance", "1e-3").returncode, 3)
+        self.assertNotIn("only", run("check", exact, "--against", exact).stdout)
+        milliseconds = self.history("ms.csv", change=lambda row: row | {"t": 1000 * row["t"]})
+        self.refused("check", exact, "--against", milliseconds, code="wrong-size", says="a factor of 1000")
+
     def test_what_cannot_be_compared_is_refused(self):
         exact, other = self.history("exact.csv"), self.history("other.csv", change=lambda row: row | {"t": 1.001 * row["t"]})
-        self.refused("check", exact, "--against", exact, "--case", "stop", code="bad-syntax", says="beside --case")
+        self.refused("check", exact, "--against", exact, "--case", "stop", code="bad-syntax", says="--case is for an exact motion")
+        self.refused("check", exact, "--case", "stop", "--node", "3", code="bad-syntax", says="--node = 3")
         self.refused("check", "--against", exact, code="bad-syntax", says="a FILE before it and one behind it")
         self.refused("check", exact, "--against", other, code="wrong-size", says="write both at the same times")
         self.refused("check", exact, "--against", self.history("one.csv", columns=("t", "u1")), code="no-column", says="no u2")

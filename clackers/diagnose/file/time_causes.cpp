@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "clackers/diagnose/file/file_sample.hpp"
 #include "clackers/diagnose/file/reading.hpp"
 #include "clackers/diagnose/file/single_numbers.hpp"
 #include "clackers/diagnose/file/units.hpp"
+#include "clackers/numerics/golden_section.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
 namespace clackers::diagnose {
@@ -115,24 +115,8 @@ std::optional<Diagnosis> time_drift(const FileSample& file) {
   const auto distance = [&](double h) { return file.distance_at(times_for(h)).u; };
   // Golden sections between steps that the drift allows: rounded steps err by at most the bend.
   const double reach = 20.0 * bent / grid.n.back();
-  constexpr double golden = 0.6180339887498949;
-  double low = line.slope - reach, high = line.slope + reach;
-  double a = high - golden * (high - low), b = low + golden * (high - low);
-  double at_a = distance(a), at_b = distance(b);
-  for (int i = 0; i < 25; ++i) {
-    if (at_a < at_b) {
-      high = std::exchange(b, a);
-      at_b = at_a;
-      a = high - golden * (high - low);
-      at_a = distance(a);
-    } else {
-      low = std::exchange(a, b);
-      at_a = at_b;
-      b = low + golden * (high - low);
-      at_b = distance(b);
-    }
-  }
-  const double h = at_a < at_b ? a : b, left = std::min(at_a, at_b);
+  const auto [h, left] =
+      numerics::golden_section(line.slope - reach, line.slope + reach, 25, distance);
   // The same for times that are only scaled.
   double scaled_left = INFINITY;
   for (int i = -10; i <= 10; ++i)

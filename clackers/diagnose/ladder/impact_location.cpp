@@ -62,6 +62,14 @@ class Locator {
     found.restitution = found.opening / found.closing;
     found.duration = opening->t - closing->t;
     found.delay = found.duration * found.opening / (found.closing + found.opening);
+    // Exact where both flights have one acceleration.
+    const auto apart = [&](auto measure) {
+      return measure(moved(*closing, found.delay)) -
+             measure(moved(*opening, found.delay - found.duration));
+    };
+    const double rate = apart([&](const auto& state) { return contact.gap_rate(state.v); });
+    if (rate < 0.0)
+      found.delay -= apart([&](const auto& state) { return contact.gap_at(state.u); }) / rate;
     const auto now = moved(after, closing->t - after.t);
     const Eigen::VectorXd expected = struck(closing->v, contacts, together);
     found.defect = difference(now.u - closing->u, now.v - expected) / found.closing;
@@ -70,14 +78,21 @@ class Locator {
     constexpr double in_time = 0.05;
     if (stale.squaredNorm() > 0.0 && std::abs(found.delay) < in_time * (after.t - found.t))
       found.stale_share = (now.v - expected).dot(stale) / stale.squaredNorm();
-    // What flies on for that long before it is struck has another speed by then.
-    const auto later = moved(*closing, found.duration);
-    found.restitution_error = std::abs(contact.gap_rate(later.v) + found.closing) / found.closing;
-    // Both sides at the instant of the impulse.
-    const Eigen::VectorXd jump =
-        moved(*opening, found.delay - found.duration).v - moved(*closing, found.delay).v;
+    // Both sides at the instant of the impulse have other speeds than where the gap closes and opens.
+    const auto struck_state = moved(*closing, found.delay);
+    const auto left_state = moved(*opening, found.delay - found.duration);
+    found.gap = contact.gap_at(struck_state.u);
+    found.restitution_error = (std::abs(contact.gap_rate(struck_state.v) + found.closing) +
+                               std::abs(contact.gap_rate(left_state.v) - found.opening)) /
+                              found.closing;
+    const Eigen::VectorXd jump = left_state.v - struck_state.v;
     found.momentum_defect = beside_impulses(jump, contacts) / kinetic(jump);
     return found;
+  }
+
+  // What a flight between two rows lacks in the speed of the gap.
+  double lack(const FreeState& from, const FreeState& to, const model::Contact<>& contact) const {
+    return std::abs(contact.gap_rate(moved(from, to.t - from.t).v - to.v));
   }
 
   // Velocities after the contacts of these numbers were struck at once.
@@ -180,6 +195,14 @@ double closed_speed(const model::Trajectory& rows, const Rows& around,
   return sum / closed;
 }
 
+// Whether rows are no states of the solver: others than every nth step, or between those that a
+// tolerance leads to.
+bool are_between_steps(const FileFacts& facts, bool by_tolerance) {
+  constexpr double same = 1e-3;
+  const double steps = facts.step > 0.0 ? facts.spacing / facts.step : 1.0;
+  return by_tolerance || std::abs(steps - std::max(1.0, std::round(steps))) > same * steps;
+}
+
 double rms(const std::vector<LocatedImpact>& impacts, double LocatedImpact::*member) {
   double sum = 0.0;
   for (const auto& impact : impacts) sum += impact.*member * impact.*member;
@@ -191,7 +214,42 @@ double rms(const std::vector<LocatedImpact>& impacts, double LocatedImpact::*mem
 double LocatedImpacts::rms_delay() const { return rms(impacts, &LocatedImpact::delay); }
 double LocatedImpacts::rms_defect() const { return rms(impacts, &LocatedImpact::defect); }
 
-LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProblem<>& problem) {
+bool LocatedImpacts::is_rigid() const {
+  // Between a spring's 2/pi and the 1 of an impact that comes late.
+  constexpr double least_closed_speed = 0.85;
+  double sum = 0.0, count = 0.0;
+  for (const auto& impact : impacts)
+    if (std::isfinite(impact.closed_speed)) sum += impact.closed_speed, ++count;
+  return sum > least_closed_speed * count;
+}
+
+std::optional<CommonGap> common_gap(std::span<const LocatedImpacts> files) {
+  constexpr double same_gap = 0.1, part_of_delays = 0.2, least_range = 1e-3;
+  constexpr std::size_t least_impacts = 3;
+  std::vector<double> gaps, delays;
+  for (const auto& file : files)
+    for (const auto& impact : file.impacts) {
+      gaps.push_back(impact.gap);
+      delays.push_back(impact.delay);
+    }
+  if (gaps.empty()) return {};
+  const auto relative_range = [](const std::vector<double>& values) {
+    const auto [least, most] = std::ranges::minmax(values);
+    return (most - least) / std::abs(measure::median(values));
+  };
+  const double range = relative_range(gaps);
+  if (!(range < same_gap)) return {};
+  CommonGap found{.value = measure::median(gaps)};
+  found.spread = range * std::abs(found.value);
+  const double of_delays = relative_range(delays);
+  found.is_told =
+      gaps.size() >= least_impacts && of_delays > least_range && range < part_of_delays * of_delays;
+  if (files.size() == 1 && !found.is_told) return {};
+  return found;
+}
+
+LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProblem<>& problem,
+                              bool by_tolerance) {
   LocatedImpacts found;
   found.step = seen.facts.step;
   const auto& sample = seen.sample;
@@ -247,7 +305,18 @@ LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProble
                                together);
     if (!one) continue;
     one->contact = impact.contact;
-    one->delay_steps = one->delay / (seen.facts.step > 0.0 ? seen.facts.step : seen.facts.spacing);
+    one->delay_steps = one->delay / (seen.facts.step > 0.0 && !by_tolerance ? seen.facts.step
+                                                                            : seen.facts.spacing);
+    if (are_between_steps(seen.facts, by_tolerance))
+      for (const auto to : {around->before, around->after + 1}) {
+        if (to == 0 || to >= rows.t.size()) continue;
+        const double from_t = rows.t[to - 1], to_t = rows.t[to];
+        const bool has_own = from_t <= impact.t && impact.t <= to_t;
+        if (alone(from_t, to_t) > has_own) continue;
+        one->restitution_error +=
+            locator.lack(measure::row_state(rows, to - 1), measure::row_state(rows, to), contact) /
+            one->closing;
+      }
     // The flights on both sides; what they lose is known below.
     lengths.push_back(rows.t[around->after] - rows.t[around->before]);
     one->closed_speed = closed_speed(rows, *around, contact);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "clackers/diagnose/observation.hpp"
@@ -19,13 +21,16 @@ struct LocatedImpact {
   int contact = 0;       ///< row of ImpactProblem::contacts
   double closing = 0.0;  ///< closing speed there [m/s], positive
   double opening = 0.0;  ///< speed with which the flight after it opens the gap [m/s], positive
-  /// Opening over closing, and its half width: of the flights on both sides, and of a late impact.
+  /// Opening over closing, and its half width: of the flights on both sides, and of a late impact. Of
+  /// rows between steps also what the flights beside them lack: a row interpolated across the impact
+  /// lies on neither.
   double restitution = 0.0, restitution_error = 0.0;
   /// Part of the change of momentum that impulses along the contacts cannot give: |p - G^T J| over
   /// |p|, p = M (v(+) - v(-)), in the norm of the kinetic energy. 0 for one mass.
   double momentum_defect = 0.0;
   double delay = 0.0;        ///< of the impact [s]; negative where it came too early
-  double delay_steps = 0.0;  ///< the same in steps of the history
+  double delay_steps = 0.0;  ///< the same in steps of the history, or in rows of one of a tolerance
+  double gap = 0.0;          ///< at which it acts [m], where both flights meet; negative where late
   double duration = 0.0;     ///< from closing to opening [s]
   /// Mean speed of the gap at the closed rows, over that at which it closes, or opens where it
   /// does: 2/pi in a spring, 1 where masses fly on until an impulse turns them. NaN for no such row.
@@ -57,9 +62,22 @@ struct LocatedImpacts {
   bool is_resolved() const {
     return !impacts.empty() && rms_delay() > std::max(5.0 * uncertainty, 1e-7 * step);
   }
+  /// Whether masses fly on through the closed rows until one step turns them, as in no spring.
+  bool is_rigid() const;
 };
 
-/// Empty without velocities, and where rows are too far apart to hold single flights.
-LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProblem<>& problem);
+/// Empty without velocities, and where rows are too far apart to hold single flights. `by_tolerance`:
+/// the step of the history is a tolerance.
+LocatedImpacts locate_impacts(const Observation& seen, const model::ImpactProblem<>& problem,
+                              bool by_tolerance = false);
+
+/// One gap at which all impacts of some histories act.
+struct CommonGap {
+  double value = 0.0, spread = 0.0;  ///< [m]
+  bool is_told = false;              ///< their delays differ, as speeds do: it is no common delay
+};
+
+/// Nothing where gaps differ by a tenth, and of one history where its delays do not differ by more.
+std::optional<CommonGap> common_gap(std::span<const LocatedImpacts> files);
 
 }  // namespace clackers::diagnose

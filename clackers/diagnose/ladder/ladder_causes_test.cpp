@@ -6,7 +6,9 @@
 #include <string>
 
 #include "clackers/diagnose/causes.hpp"
+#include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/testing/ladder_sets.hpp"
+#include "clackers/diagnose/testing/method_rows.hpp"
 
 namespace clackers::diagnose::testing {
 namespace {
@@ -116,6 +118,35 @@ TEST_P(LadderCauses, ToleranceOfTheSearchForImpactsIsMeasured) {
   EXPECT_GE(found.value, 0.1 * tolerance);
 }
 
+TEST_P(LadderCauses, OneGapAtImpactsOfOtherDelaysIsNoTolerance) {
+  auto late = plan.problem.problem;
+  const double gap = -0.003 * plan.problem.motion->peak().u.maxCoeff();
+  late.contacts.front().gap += gap;
+  for (const std::size_t count : {std::size_t(5), std::size_t(1)}) {
+    auto halved = plan;
+    halved.steps.resize(count);
+    for (std::size_t k = 0; k < count; ++k) halved.steps[k] = plan.steps[2] * std::exp2(-double(k));
+    const auto files = files_of(halved, "method=rk4", late);
+    EXPECT_EQ(limit_of(files.histories, plan.problem.problem, *plan.problem.motion).wrong,
+              count > 1);
+    const auto all = ladder_causes(files.question());
+    const auto* found = find(all, "gap-differs");
+    ASSERT_TRUE(found) << count << ' ' << listed(all);
+    EXPECT_NEAR(found->value, gap, 0.01 * std::abs(gap)) << count;
+    EXPECT_EQ(is_other_system(*found), count > 1);
+    EXPECT_FALSE(find(all, "impact-at-step-end")) << listed(all);
+    EXPECT_FALSE(find(all, "impact-tolerance")) << listed(all);
+  }
+}
+
+TEST_P(LadderCauses, AnImpactThroughWhichMassesFlyOnIsMissed) {
+  const auto all = ladder_causes(files_of(plan, "method=rk4 miss=2").question());
+  const auto* found = find(all, "impact-missed");
+  ASSERT_TRUE(found) << listed(all);
+  EXPECT_EQ(found->value, 2.0);
+  EXPECT_EQ(found->fact("time"), plan.problem.motion->impact(2).t);
+}
+
 TEST_P(LadderCauses, WhiteNoiseIsAFloor) {
   const auto files = files_of(plan, "method=rk4 noise=1e-5");
   const auto found = only(files, "noise-floor");
@@ -183,6 +214,42 @@ TEST_P(LadderCauses, EnergyLossOfRunsWithoutHistoriesIsDamping) {
   const auto found = only(files, "numerical-damping");
   EXPECT_NEAR(found.value, 0.02, 1e-12);
   EXPECT_NEAR(found.fact("order"), order, 1e-9);
+}
+
+TEST(ImpactTolerance, IsNotReadFromTwoImpactsBetweenTwoRows) {
+  const auto problem = cases::make("pressed-oscillator", {{"f1", 0.3}});
+  Files files{problem};
+  for (int k = 3; k <= 10; ++k) {
+    const double tolerance = std::pow(10.0, -k);
+    model::Trajectory rows;
+    rows.dof = 1;
+    for (int i = 0; i <= 2000; ++i) {
+      const double t = 0.01 * i;
+      const auto state = problem.motion->at(t, model::Side::right);
+      rows.t.push_back(t);
+      rows.u.push_back(state.u[0] + 0.1 * tolerance * std::sin(t));
+      rows.v.push_back(state.v[0] + 0.1 * tolerance * std::cos(t));
+    }
+    files.add(rows, facts_of(problem, rows, tolerance));
+  }
+  auto question = files.question();
+  question.by_tolerance = true;
+  const auto found = ladder_causes(question);
+  EXPECT_EQ(find(found, "impact-tolerance"), nullptr) << listed(found);
+  // Delays are counted in rows.
+  for (const auto& impact : locate_impacts(files.histories.back(), problem.problem, true).impacts)
+    EXPECT_LT(std::abs(impact.delay_steps), 1.0);
+}
+
+TEST(CommensurateSteps, AreNoneWhereImpactsAreLocatedAndErrorsFallAlongALine) {
+  for (const std::string contact : {"", "+reversal"}) {
+    Files files{cases::make("forced-pair")};
+    for (const double step : {0.05, 0.025, 0.0125, 0.00625, 0.003125, 0.0015625})
+      files.add(run("newmark" + contact, files.problem.problem, step), step);
+    files.fit();
+    const auto found = ladder_causes(files.question());
+    EXPECT_EQ(find(found, "commensurate-steps") != nullptr, !contact.empty()) << listed(found);
+  }
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ std::optional<Diagnosis> no_ladder(const DiagnosisInput& question) {
   return {};
 }
 
-std::optional<OddRun> odd_run(const measure::Ladder& ladder) {
+std::optional<OddRun> odd_run(const measure::Ladder& ladder, bool by_tolerance) {
   constexpr std::size_t least_runs = 6;
   // In natural logarithms: how far the others scatter, and how far above them the odd one lies.
   constexpr double largest_scatter = 0.35, least_distance = 1.6, least_lead = 8.0;
@@ -158,9 +158,12 @@ std::optional<OddRun> odd_run(const measure::Ladder& ladder) {
   }
   if (!(least < largest_scatter && distance > least_distance && distance > least_lead * least))
     return {};
+  // The coarsest steps and tolerances come before the line begins.
+  if (x[odd] == std::ranges::max(x)) return {};
   auto& found = runs[odd];
   found.found = diagnosis_of("odd-file", std::exp(distance), "1");
   found.found.confidence = 1.0;
+  found.found.text = by_tolerance ? "tolerance" : "h";
   found.found.evidence = {{"step", ladder[found.level].runs[found.run].step},
                           {"files", double(runs.size())}};
   return found;

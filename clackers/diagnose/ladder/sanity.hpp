@@ -10,11 +10,11 @@ namespace clackers::diagnose {
 /// steps-contradict-rows, fixed-internal-step, step-without-effect; nothing for a ladder.
 std::optional<Diagnosis> no_ladder(const DiagnosisInput& question);
 
-/// The one run whose error lies far above the line through those of all others.
+/// The one run whose error lies far above the line through those of all others; none of the coarsest step.
 struct OddRun {
   std::size_t level = 0, run = 0;
   Diagnosis found;
 };
-std::optional<OddRun> odd_run(const measure::Ladder& ladder);
+std::optional<OddRun> odd_run(const measure::Ladder& ladder, bool by_tolerance = false);
 
 }  // namespace clackers::diagnose

@@ -73,7 +73,7 @@ measure::Ladder line(double scatter) {
 }
 
 TEST(OddRun, IsTheOneFarAboveTheLineOfAllOthers) {
-  for (std::size_t odd = 0; odd < 12; ++odd) {
+  for (std::size_t odd = 1; odd < 12; ++odd) {
     auto ladder = line(1.05);
     ladder[odd].runs[0].u_error *= 30.0;
     const auto found = odd_run(ladder);
@@ -81,13 +81,18 @@ TEST(OddRun, IsTheOneFarAboveTheLineOfAllOthers) {
     EXPECT_EQ(found->level, odd);
     EXPECT_NEAR(found->found.value, 30.0, 3.0);
     EXPECT_EQ(found->found.fact("step"), ladder[odd].runs[0].step);
+    EXPECT_NE(sentence_of(found->found).find(", h = "), std::string::npos);
+    EXPECT_NE(sentence_of(odd_run(ladder, true)->found).find(", tolerance = "), std::string::npos);
   }
 }
 
 TEST(OddRun, IsNoneOnLinesThatScatterBendOrHaveTwo) {
   EXPECT_FALSE(odd_run(line(1.0)));
   EXPECT_FALSE(odd_run(line(3.0)));
-  auto two = line(1.05), small = two, floor = two;
+  auto two = line(1.05), small = two, floor = two, coarsest = two;
+  // Steps before the line begins.
+  coarsest[0].runs[0].u_error *= 30.0;
+  EXPECT_FALSE(odd_run(coarsest));
   two[3].runs[0].u_error *= 30.0;
   two[8].runs[0].u_error *= 30.0;
   EXPECT_FALSE(odd_run(two));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
 
@@ -27,6 +28,20 @@ std::vector<const measure::RunScore*> runs_of(const measure::Ladder& ladder) {
   return runs;
 }
 
+// Whether impacts are located within their steps: those of histories that fall off the grid by the
+// method's own error are late by next to none of that.
+bool are_located(const DiagnosisInput& question) {
+  constexpr double small_part = 0.1;
+  int on_row = 0, all = 0;
+  for (const auto& seen : question.histories)
+    for (const auto& impact : locate_impacts(seen, question.problem).impacts) {
+      const double steps = impact.t / seen.facts.step;
+      on_row += !(std::abs(impact.delay_steps) < small_part * std::abs(steps - std::round(steps)));
+      ++all;
+    }
+  return all > 0 && 10 * on_row < all;
+}
+
 // Runs whose steps divide the times of impacts, where that makes their errors smaller than those of
 // their neighbours, or where there are no other runs to compare with. Where impacts act at steps
 // their errors are by rounding 0 or those of a whole step.
@@ -46,7 +61,7 @@ void commensurate(const DiagnosisInput& question, bool impacts_at_steps,
   const double share = double(on.size()) / double(on.size() + off.size());
   auto one = diagnosis_of(Code("commensurate-steps"), share, "1");
   if (off.empty()) {
-    if (on.size() < 2) return;
+    if (on.size() < 2 || (question.displacement.has_line && are_located(question))) return;
     one.confidence = 0.6;
   } else {
     int lucky = 0;

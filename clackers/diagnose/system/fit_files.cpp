@@ -39,7 +39,9 @@ FitQuestion fit_question(const DiagnosisInput& question) {
   for (auto at = question.histories.rbegin(); at != question.histories.rend(); ++at) {
     const double step = at->facts.step;
     if (!made.files.empty() && !(step >= least_ratio * made.files.back().step)) continue;
-    FitFile file{.step = step, .rows = fit_rows(*at, question.problem, question.motion)};
+    FitFile file{.step = step,
+                 .late_start = late_start(*at, question.motion),
+                 .rows = fit_rows(*at, question.problem, question.motion)};
     if (!file.rows.is_far()) {
       if (made.files.empty()) return made;
       continue;

@@ -14,6 +14,7 @@ struct FitFile {
   /// Of all rows that are kept, among them those of the first impacts: the least gap of the contact [m],
   /// and how far apart they are [s].
   double least_gap = 0.0, gap_spacing = 0.0;
+  double late_start = 0.0;  ///< see late_start() [s]
   FitRows rows;
   SystemFit smooth{};  ///< of frequencies and damping; empty until fitted
 };

@@ -67,6 +67,20 @@ FitRows fit_rows(const Observation& observation, const model::Motion& motion) {
   return rows;
 }
 
+double late_start(const Observation& observation, const model::Motion& motion) {
+  constexpr double rounding = 1e-6;
+  const auto& rows = observation.opening;
+  if (rows.t.empty() || !(rows.t[0] > 0.0)) return 0.0;
+  const auto start = motion.at(0.0, model::Side::right), scale = motion.peak();
+  const double same = rounding + 2.0 * observation.facts.floor;
+  for (Eigen::Index i = 0; i < start.u.size(); ++i) {
+    const auto at = std::size_t(i);
+    if (!(std::abs(rows.u[at] - start.u[i]) <= same * scale.u[i])) return 0.0;
+    if (!rows.v.empty() && !(std::abs(rows.v[at] - start.v[i]) <= same * scale.v[i])) return 0.0;
+  }
+  return rows.t[0];
+}
+
 FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& problem,
                  const model::Motion& motion) {
   auto rows = fit_rows(observation, motion);

@@ -36,6 +36,10 @@ inline constexpr std::size_t most_fit_rows = 400, most_fit_opening_rows = 120;
 /// The rows without what the system may make of `floor`, which is infinite where they are too few.
 FitRows fit_rows(const Observation& observation, const model::Motion& motion);
 
+/// Time of the first row where it has the state that the case starts with, as by a clock that starts
+/// late; else 0.
+double late_start(const Observation& observation, const model::Motion& motion);
+
 /// `floor` is infinite where the simulation of the unchanged problem is not available.
 FitRows fit_rows(const Observation& observation, const model::ImpactProblem<>& problem,
                  const model::Motion& motion);

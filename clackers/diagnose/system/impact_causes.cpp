@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "clackers/diagnose/ladder/impact_location.hpp"
@@ -28,24 +29,30 @@ Impacts bounces_of(const LocatedImpacts& file, int contact, double slowest) {
   return all;
 }
 
-// Of some impacts: the median of a measure, and half the width of what holds 2/3 of it.
+// Of some impacts: the median of a measure of the third whose restitution is known best, and half the
+// width of what holds 2/3 of all, but for their own errors.
 struct Measured {
   double value = 0.0, spread = 0.0, error = 0.0;
   std::size_t count = 0;
 };
 
-Measured measured(const Impacts& impacts, const auto& measure_of) {
+Measured measured(Impacts impacts, const auto& measure_of) {
+  constexpr std::size_t least_precise = 4;
   std::vector<double> values, errors, apart;
-  for (const auto& impact : impacts) {
+  std::ranges::sort(impacts, {}, &LocatedImpact::restitution_error);
+  Measured found;
+  found.count = impacts.size();
+  if (impacts.empty()) return found;
+  const auto precise_ones = std::min(std::max(least_precise, found.count / 3), found.count);
+  for (const auto& impact : std::span(impacts).first(precise_ones)) {
     values.push_back(measure_of(impact));
     errors.push_back(impact.restitution_error);
   }
-  Measured found;
-  found.count = values.size();
-  if (values.empty()) return found;
   found.value = measure::median(values);
   found.error = measure::median(errors);
-  for (const double value : values) apart.push_back(std::abs(value - found.value));
+  for (const auto& impact : impacts)
+    apart.push_back(
+        std::max(0.0, std::abs(measure_of(impact) - found.value) - impact.restitution_error));
   found.spread = measure::median(std::move(apart));
   return found;
 }
@@ -162,8 +169,9 @@ std::vector<Diagnosis> impact_causes(const DiagnosisInput& question) {
   const auto& problem = question.problem;
   const bool elsewhere = is_elsewhere(question);
   const bool falls = question.displacement.has_line && !elsewhere;
+  if (problem.contacts.empty()) return {};
   // Contacts that close together are struck as one or in turn.
-  if (problem.contacts.empty() || (problem.contacts.size() > 1 && !elsewhere)) return {};
+  const bool may_be_in_turn = problem.contacts.size() > 1 && !elsewhere;
   const bool is_alone = question.histories.size() == 1;
   // Of one history the method's own error is not known; one of first order makes 0.24 w h with a damping
   // ratio of a quarter.
@@ -172,7 +180,8 @@ std::vector<Diagnosis> impact_causes(const DiagnosisInput& question) {
                                        question.histories.front().facts.step)
                : 0.0;
   ImpactFiles files;
-  for (const auto& seen : question.histories) files.push_back(locate_impacts(seen, problem));
+  for (const auto& seen : question.histories)
+    files.push_back(locate_impacts(seen, problem, question.by_tolerance));
   const double finest = files.back().step;
   // The other history, and those near it; of tolerances the next one is ten times as large.
   double most_other = most_other_step * finest;
@@ -188,13 +197,14 @@ std::vector<Diagnosis> impact_causes(const DiagnosisInput& question) {
       if (problem.contacts.size() > 1) found.back().evidence.push_back({"contact", contact + 1.0});
       return found.back();
     };
-    const auto threshold = threshold_of(files, contact);
+    const auto threshold = may_be_in_turn ? std::nullopt : threshold_of(files, contact);
     const double slowest = threshold ? threshold->speed : 0.0;
     if (threshold)
       add(Code("restitution-threshold"), threshold->speed, "m/s").evidence = {
           {"uncertainty", threshold->uncertainty}, {"files", double(threshold->files)}};
-    const auto gained =
-        question.by_tolerance || is_alone ? std::nullopt : gain_by_delay(files, contact, slowest);
+    const auto gained = question.by_tolerance || is_alone || may_be_in_turn
+                            ? std::nullopt
+                            : gain_by_delay(files, contact, slowest);
     if (gained)
       add(Code("energy-gained-at-impacts"), *gained)
           .evidence.push_back({"files", double(files.size())});
@@ -211,11 +221,14 @@ std::vector<Diagnosis> impact_causes(const DiagnosisInput& question) {
     };
     const auto defect = [](const LocatedImpact& impact) { return impact.momentum_defect; };
     const auto now = measured(fine, in_time), again = is_alone ? now : measured(coarse, in_time);
-    if (now.count < 2 || again.count < 2) continue;
-    constexpr double above_error = 10.0, noticeable = 1e-4, noticeable_beside = 1e-3;
+    if (now.count < 2 || again.count < 2 || (may_be_in_turn && is_alone)) continue;
+    constexpr double above_error = 10.0, far_above_error = 100.0;
+    constexpr double noticeable = 1e-4, noticeable_beside = 1e-3;
     const double off = now.value - eta, off_again = again.value - eta;
     if (std::abs(off) > std::max({elsewhere ? noticeable : noticeable_beside,
-                                  above_error * now.error, gained ? precise : least_alone}) &&
+                                  (may_be_in_turn ? far_above_error : above_error) *
+                                      std::max(now.error, may_be_in_turn ? again.error : 0.0),
+                                  gained ? precise : least_alone}) &&
         now.spread < same_share * std::abs(off) &&
         std::abs(off_again - off) < same_share * std::abs(off)) {
       auto& cause = add(Code("restitution-differs"), now.value);

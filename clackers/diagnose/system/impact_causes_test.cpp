@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "clackers/diagnose/system/measured_causes.hpp"
 #include "clackers/diagnose/testing/ladder_sets.hpp"
+#include "clackers/diagnose/testing/method_rows.hpp"
 
 // Solvers of first order, as physics engines are, whose displacements hide what their impacts show.
 namespace clackers::diagnose::testing {
@@ -101,6 +105,72 @@ TEST(ImpactCauses, RightSolversHaveNone) {
         EXPECT_EQ(codes(causes_of(plan, solver)), "") << i << ' ' << solver << " h = " << step;
       }
     }
+}
+
+// Rows of equal spacing on the straight lines between those of a solver.
+model::Trajectory resampled(const model::Trajectory& rows, int count) {
+  model::Trajectory on_grid;
+  on_grid.dof = rows.dof;
+  const auto dof = std::size_t(rows.dof);
+  for (int k = 0; k <= count; ++k) {
+    const double t = rows.t.back() * k / count;
+    const auto next = std::max<std::ptrdiff_t>(
+        1, std::min(std::ranges::upper_bound(rows.t, t) - rows.t.begin(), std::ssize(rows.t) - 1));
+    const auto i = std::size_t(next) - 1;
+    const double x = (t - rows.t[i]) / (rows.t[i + 1] - rows.t[i]);
+    on_grid.t.push_back(t);
+    for (const auto& [from, to] : {std::pair{&rows.u, &on_grid.u}, std::pair{&rows.v, &on_grid.v}})
+      for (auto j = i * dof; j < (i + 1) * dof; ++j)
+        to->push_back((1.0 - x) * (*from)[j] + x * (*from)[j + dof]);
+  }
+  return on_grid;
+}
+
+TEST(ImpactCauses, RowsInterpolatedAcrossImpactsShowNoRestitution) {
+  for (const int i : law_plans)
+    for (const int count : {1100, 1500, 1900}) {
+      const auto plan = ladder_plan(i);
+      Files files{plan.problem};
+      for (const double step : plan.steps) {
+        const auto rows = resampled(history_of("method=rk4", plan.problem.problem, step), count);
+        files.add(rows, facts_of(plan.problem, rows, step));
+      }
+      files.fit();
+      EXPECT_EQ(codes(impact_causes(files.question())), "") << i << ' ' << count;
+    }
+}
+
+TEST(ImpactCauses, SlowImpactsDoNotHideWhatFastOnesMeasure) {
+  for (const double share : {0.9375, 1.0}) {
+    Files files{cases::make("ball")};
+    auto solved = files.problem.problem;
+    solved.contacts[0].restitution *= share;
+    for (int k = 0; k < 8; ++k) {
+      const double step = 0.0237 * std::exp2(-0.5 * k);
+      files.add(run("moreau-jean", solved, step), step);
+    }
+    files.fit();
+    const auto found = impact_causes(files.question());
+    ASSERT_EQ(codes(found), share < 1.0 ? "restitution-differs" : "");
+    if (share == 1.0) continue;
+    EXPECT_NEAR(found[0].value, 0.75, 0.005);
+  }
+}
+
+TEST(ImpactCauses, OneOfManyContactsShowsItsRestitutionInTwoHistories) {
+  for (const double eta : {0.95, 1.0}) {
+    Files files{cases::make("row")};
+    auto solved = files.problem.problem;
+    solved.contacts[1].restitution = eta;
+    for (const double step : {0.0327, 0.0164, 0.0082, 0.0041})
+      files.add(run("rk4", solved, step), step);
+    files.fit();
+    const auto found = impact_causes(files.question());
+    ASSERT_EQ(codes(found), eta < 1.0 ? "restitution-differs" : "");
+    if (eta == 1.0) continue;
+    EXPECT_NEAR(found[0].value, eta, 1e-4);
+    EXPECT_EQ(found[0].fact("contact"), 2.0);
+  }
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct FlightChange {
   Diagnosis cause;  ///< without its numbers
   std::vector<std::function<void(System&, double)>> parameters;
   double frequency = 0.0;  ///< of a load [rad/s]
+  bool is_of_all = false;  ///< all springs, dampers or loads by one share, not one of them
 };
 
 std::string place_of(Eigen::Index i, Eigen::Index j) {
@@ -32,10 +33,11 @@ std::string place_of(Eigen::Index i, Eigen::Index j) {
                 : fmt::format("between masses {} and {}", i + 1, j + 1);
 }
 
-// A spring or damper between i and j, or i and the ground for i = j, by its share.
-void add_links(std::vector<FlightChange>& all, Code code, Eigen::MatrixXd System::*member,
-               const System& system) {
+// A spring or damper between i and j, or i and the ground for i = j, by its share, and all of them by one.
+void add_links(std::vector<FlightChange>& all, Code code, const char* text_of_all,
+               Eigen::MatrixXd System::*member, const System& system) {
   const Eigen::MatrixXd& matrix = system.*member;
+  const auto before = all.size();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     for (Eigen::Index j = i; j < matrix.rows(); ++j) {
       const double size = i == j ? matrix.row(i).sum() : -matrix(i, j);
@@ -52,6 +54,11 @@ void add_links(std::vector<FlightChange>& all, Code code, Eigen::MatrixXd System
       });
       all.push_back(std::move(one));
     }
+  if (all.size() < before + 2) return;
+  FlightChange whole{diagnosis_of(code, NAN, "%"), {}, 0.0, true};
+  whole.cause.text = text_of_all;
+  whole.parameters.push_back([=](System& changed, double d) { changed.*member *= 1.0 + d; });
+  all.push_back(std::move(whole));
 }
 
 void add_force(System& system, const model::HarmonicForce& force) {
@@ -64,8 +71,8 @@ void add_force(System& system, const model::HarmonicForce& force) {
 
 std::vector<FlightChange> changes_of(const System& system) {
   std::vector<FlightChange> all;
-  add_links(all, Code("stiffness-differs"), &System::stiffness, system);
-  add_links(all, Code("damping-differs"), &System::damping, system);
+  add_links(all, Code("stiffness-differs"), "of all springs", &System::stiffness, system);
+  add_links(all, Code("damping-differs"), "of all dampers", &System::damping, system);
   const auto add = [&](Code code, std::string unit, int mass) -> FlightChange& {
     all.push_back({diagnosis_of(code, NAN, std::move(unit)), {}});
     all.back().cause.evidence.push_back({"mass", mass + 1.0});
@@ -85,15 +92,26 @@ std::vector<FlightChange> changes_of(const System& system) {
     });
   }
   if (load == nullptr) return all;
-  for (const auto& force : load->forces()) {
-    auto& one = add(Code("load-differs"), "1", force.dof);
-    one.frequency = force.frequency;
-    for (const double phase : {0.0, -0.5 * M_PI})
-      if (phase == 0.0 || force.frequency > 0.0)
-        one.parameters.push_back([=](System& changed, double d) {
-          add_force(changed,
-                    {force.dof, d * force.amplitude, force.frequency, force.phase + phase});
-        });
+  const auto& forces = load->forces();
+  // More of some forces, and the same a quarter of a period later: as much later as the fastest.
+  const auto add_parameters = [](FlightChange& one, std::vector<model::HarmonicForce> some) {
+    one.frequency = std::ranges::max(some, {}, &model::HarmonicForce::frequency).frequency;
+    one.parameters.push_back([=](System& changed, double d) {
+      for (const auto& f : some) add_force(changed, {f.dof, d * f.amplitude, f.frequency, f.phase});
+    });
+    if (!(one.frequency > 0.0)) return;
+    one.parameters.push_back([=, fastest = one.frequency](System& changed, double d) {
+      for (const auto& f : some)
+        if (f.frequency > 0.0)
+          add_force(changed, {f.dof, d * f.amplitude * f.frequency / fastest, f.frequency,
+                              f.phase - 0.5 * M_PI});
+    });
+  };
+  for (const auto& force : forces)
+    add_parameters(add(Code("load-differs"), "1", force.dof), {force});
+  if (forces.size() > 1) {
+    all.push_back({diagnosis_of(Code("load-differs"), NAN, "1"), {}, 0.0, true});
+    add_parameters(all.back(), {forces.begin(), forces.end()});
   }
   return all;
 }
@@ -121,13 +139,16 @@ std::vector<std::size_t> flights_in(const model::Trajectory& rows, double longes
 struct FlightFit {
   Eigen::VectorXd lack;
   Eigen::MatrixXd columns;
+  /// By this share displacements between rows are larger than what velocities make of them: no force does
+  /// so, but a clock, or another unit of velocities.
+  double excess = 0.0;
 };
 
 class Mover {
  public:
   Mover(const System& system, double fastest) : motion_(system), fastest_(fastest) {}
-  Eigen::VectorXd velocity(const FreeState& state, double s) const {
-    return motion_.moved(state, s, 1 + int(std::abs(s) * fastest_ / 0.05)).v;
+  FreeState moved(const FreeState& state, double s) const {
+    return motion_.moved(state, s, 1 + int(std::abs(s) * fastest_ / 0.05));
   }
 
  private:
@@ -156,7 +177,7 @@ FlightFit flight_fit(const Observation& seen, const System& system,
       const auto i = flights[k];
       const double s = rows.t[i + 1] - rows.t[i];
       all.segment(Eigen::Index(k) * dof, dof) =
-          mover.velocity(measure::row_state(rows, i), s).array() * weight / s;
+          mover.moved(measure::row_state(rows, i), s).v.array() * weight / s;
     }
     return all;
   };
@@ -168,6 +189,16 @@ FlightFit flight_fit(const Observation& seen, const System& system,
         measure::row_state(rows, i + 1).v.array() * weight / (rows.t[i + 1] - rows.t[i]);
   }
   fit.lack -= right;
+  const Mover mover(system, fastest);
+  double over = 0.0, under = 0.0;
+  for (const auto i : flights) {
+    const double s = rows.t[i + 1] - rows.t[i];
+    const auto from = measure::row_state(rows, i), to = measure::row_state(rows, i + 1);
+    const Eigen::VectorXd way = s * from.v.array() * weight.square();
+    over += way.dot(to.u - mover.moved(from, s).u);
+    under += way.dot(s * from.v);
+  }
+  if (under > 0.0) fit.excess = over / under;
   std::vector<Eigen::VectorXd> columns;
   constexpr double small = 1e-5;
   for (const auto& change : changes)
@@ -205,6 +236,7 @@ class FlightFits {
   }
 
   bool known() const { return fit_.lack.size() > 0; }
+  double excess() const { return fit_.excess; }
 
   Fitted of(std::vector<std::size_t> changes) const {
     std::vector<Eigen::Index> at;
@@ -235,8 +267,9 @@ class FlightFits {
   std::vector<Eigen::Index> first_, count_;
 };
 
-// The change, or two of them, that leave least; nothing where another one leaves little more.
-std::optional<Fitted> best_of(const FlightFits& fits, std::size_t changes) {
+// The change, or two of them, that leave least; nothing where another one leaves little more. One of
+// some springs, dampers or loads beside all of them is as good as two.
+std::optional<Fitted> best_of(const FlightFits& fits, const std::vector<FlightChange>& changes) {
   constexpr double least_gain = 5.0, least_gain_of_two = 20.0, least_lead = 2.0;
   std::vector<Fitted> tried;
   const auto lead = [&](double least) -> std::optional<Fitted> {
@@ -245,12 +278,14 @@ std::optional<Fitted> best_of(const FlightFits& fits, std::size_t changes) {
     if (tried.size() > 1 && tried.front().gain < least_lead * tried[1].gain) return {};
     return tried.front();
   };
-  for (std::size_t i = 0; i < changes; ++i) tried.push_back(fits.of({i}));
+  for (std::size_t i = 0; i < changes.size(); ++i) tried.push_back(fits.of({i}));
   const auto one = lead(least_gain);
   const double alone = tried.empty() ? 0.0 : tried.front().gain;
   tried.clear();
-  for (std::size_t i = 0; i < changes; ++i)
-    for (std::size_t j = i + 1; j < changes; ++j) tried.push_back(fits.of({i, j}));
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    for (std::size_t j = i + 1; j < changes.size(); ++j)
+      if (changes[i].cause.code != changes[j].cause.code || !changes[j].is_of_all)
+        tried.push_back(fits.of({i, j}));
   // Two changes always leave less than one, and what the method's own error leaves is no change.
   constexpr double worth_two = 3.0, enough_alone = 300.0;
   const auto two = lead(least_gain_of_two);
@@ -293,10 +328,14 @@ std::vector<Diagnosis> flight_causes(const DiagnosisInput& question, System* sol
   const auto changes = changes_of(system);
   const FlightFits fits(finest, system, changes), others(*other, system, changes);
   if (!fits.known() || !others.known()) return {};
-  const auto best = best_of(fits, changes.size());
+  const auto best = best_of(fits, changes);
   if (!best) return {};
   const auto again = others.of(best->changes);
   if (again.values.size() == 0) return {};
+  const double excess = fits.excess();
+  if (std::abs(excess) > same_share * best->values.cwiseAbs().maxCoeff() &&
+      std::abs(others.excess() - excess) < same_share * std::abs(excess))
+    return {};
   std::vector<Diagnosis> found;
   Eigen::Index at = 0;
   for (const auto change : best->changes) {
@@ -314,6 +353,8 @@ std::vector<Diagnosis> flight_causes(const DiagnosisInput& question, System* sol
     found.back().confidence = 0.95;
     found.back().evidence.insert(found.back().evidence.begin(), {"gain", best->gain});
     found.back().evidence.push_back({"files", 2.0});
+    if (best->changes.size() > 1)
+      found.back().evidence.push_back({"causes", double(best->changes.size())});
     at += count;
   }
   if (solved == nullptr) return found;

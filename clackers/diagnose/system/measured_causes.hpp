@@ -14,8 +14,8 @@ inline constexpr double least_other_step = 1.8, same_share = 0.1;
 /// no motion is fitted.
 ///
 /// Flights: a row is moved to the next one by the case's own equations; what is missing there in
-/// velocity is fitted by what a change of each stiffness, damper and mass, of each load and by a
-/// constant force would make of it, one or two at once, where is_elsewhere(). Then impact_causes() by
+/// velocity is fitted by what a change of each stiffness, damper and mass, of each load, of all
+/// stiffness, damping or loads, and a constant force would make of it, one or two at once, where is_elsewhere(). Then impact_causes() by
 /// the equations that the flights have. A cause has the same value in histories of different steps; what a method does
 /// falls with the step.
 std::vector<Diagnosis> measured_causes(const DiagnosisInput& question);
@@ -39,7 +39,9 @@ std::optional<Diagnosis> shifted_time(const DiagnosisInput& question);
 /// The motion of the case with one parameter at another value, as the finest histories show it: of all
 /// cases that `question.family` has motions of, where what remains is less than a thirtieth of the distance (of a
 /// single history a hundredth, and where flights are others more than a method's error makes) and far less than under any other parameter.
-/// Parameters that explain as much are one diagnosis with all of them in its text and without a value.
+/// Parameters that explain as much are one diagnosis with all of them in its text and without a value; of
+/// these and a clock that runs by another factor (time-unit), velocities decide, else the parameters
+/// of the case, the numbers of its contacts, the clock, in this order.
 std::optional<Diagnosis> other_parameter(const DiagnosisInput& question);
 
 }  // namespace clackers::diagnose

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "clackers/diagnose/causes.hpp"
 #include "clackers/diagnose/testing/histories.hpp"
 #include "clackers/diagnose/testing/method_rows.hpp"
 #include "clackers/exact/flights/piecewise_motion.hpp"
@@ -63,6 +64,12 @@ const std::vector<ChainFault>& chain_faults() {
       {"damper",
        [](Problem& p) { p.system.damping(1, 1) += 0.2 * (0.31 + 0.034); },
        {{"damping-differs", 20.0, "%", 0, {}, "between mass 2 and the ground"}}},
+      {"all dampers",
+       [](Problem& p) { p.system.damping *= 1.05; },
+       {{"damping-differs", 5.0, "%", 0, {}, "of all dampers"}}},
+      {"all springs",
+       [](Problem& p) { p.system.stiffness *= 1.02; },
+       {{"stiffness-differs", 2.0, "%", 0, {}, "of all springs"}}},
       {"mass",
        [](Problem& p) { p.system.mass(2, 2) *= 0.98; },
        {{"mass-differs", -2.0, "%", 0, {{"mass", 3.0}}}}},
@@ -81,7 +88,7 @@ const std::vector<ChainFault>& chain_faults() {
          p.system.stiffness(0, 0) *= 1.05;
          p.system.stiffness(3, 3) *= 0.96;
        },
-       {{"stiffness-differs", 100.0 * 0.05 * 31.0 / 28.0, "%"},
+       {{"stiffness-differs", 100.0 * 0.05 * 31.0 / 28.0, "%", 0, {{"causes", 2.0}}},
         {"stiffness-differs", -100.0 * 0.04 * 39.0 / 36.0, "%"}}},
       {"restitution of one contact",
        [](Problem& p) { p.contacts[1].restitution = 0.75; },
@@ -159,6 +166,57 @@ TEST(MeasuredCauses, AConstantLoadThatIsMissingIsALoad) {
   EXPECT_EQ(found[0].fact("mass"), 2.0);
 }
 
+TEST(MeasuredCauses, AFastClockIsNoStiffnessOfAllSprings) {
+  auto right = chain(false);
+  right.system.damping.setZero();
+  for (const bool is_clock : {true, false}) {
+    auto wrong = right;
+    if (!is_clock) wrong.system.stiffness *= 0.998;
+    auto files = files_of(right);
+    for (const double h : {0.005, 0.0025}) {
+      auto rows = run("rk4", wrong, h);
+      while (rows.t.back() > 0.99 * right.end) rows.t.pop_back();
+      rows.u.resize(rows.t.size() * 4);
+      rows.v.resize(rows.u.size());
+      if (is_clock)
+        for (double& t : rows.t) t *= 1.001;
+      files.add(rows, h);
+    }
+    const auto found = system_causes(files.question());
+    ASSERT_EQ(codes(found), is_clock ? "time-unit" : "stiffness-differs");
+    EXPECT_NEAR(found[0].value, is_clock ? 1.001 : -0.2, 1e-4);
+  }
+}
+
+TEST(MeasuredCauses, AllLoadsMayBeOneCause) {
+  const auto loaded = [](double factor, double late, double of_second) {
+    auto p = chain(true);
+    p.system.add_load = model::HarmonicLoad(
+        {{0, 2.0 * factor, 4.0, 0.3 - 4.0 * late}, {2, 1.0 * of_second, 4.0, 1.0 - 4.0 * late}});
+    return p;
+  };
+  const auto causes_of = [&](const Problem& wrong) {
+    auto files = files_of(loaded(1.0, 0.0, 1.0));
+    for (const double h : {0.01, 0.005}) files.add(run("rk4", wrong, h), h);
+    return diagnose(files.question());
+  };
+  auto found = causes_of(loaded(1.0, 0.01, 1.0));
+  ASSERT_EQ(codes(found), "load-differs");
+  EXPECT_NEAR(found[0].fact("time"), 0.01, 1e-4);
+  EXPECT_TRUE(sentence_of(found[0]).starts_with("Each load comes 0.01 s too late"));
+  found = causes_of(loaded(1.02, 0.0, 1.02));
+  ASSERT_EQ(codes(found), "load-differs");
+  EXPECT_NEAR(found[0].value, 1.02, 1e-4);
+  found = causes_of(chain(false));
+  ASSERT_EQ(codes(found), "load-differs");
+  EXPECT_TRUE(sentence_of(found[0]).starts_with("Each load is missing"));
+  // Each by another factor: both are told, with what they explain together.
+  found = causes_of(loaded(1.1, 0.0, 0.8));
+  ASSERT_EQ(codes(found), "load-differs load-differs");
+  for (const auto& one : found)
+    EXPECT_NE(sentence_of(one).find("by 2 causes together"), std::string::npos);
+}
+
 TEST(MeasuredCauses, ALoadThatExplainsAllStandsAlone) {
   const auto right = chain(true);
   auto wrong = right;
@@ -198,6 +256,11 @@ TEST(ShiftedTime, IsOfStepsOrSecondsAndOfNoLateLoad) {
   ASSERT_TRUE(in_seconds);
   EXPECT_EQ(in_seconds->unit, "s");
   EXPECT_NEAR(in_seconds->value, 0.003, 1e-5);
+  // Beyond half a period.
+  const auto clock = shift_by(right, 0.0, 2.0);
+  ASSERT_TRUE(clock);
+  EXPECT_EQ(clock->unit, "s");
+  EXPECT_NEAR(clock->value, 2.0, 1e-5);
   auto late = right;
   late.system.add_load = model::HarmonicLoad({{0, 2.0, 4.0, 0.1}});
   EXPECT_FALSE(shift_by(late, 0.0, 0.0));

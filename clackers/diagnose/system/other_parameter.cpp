@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "clackers/base/number.hpp"
+#include "clackers/diagnose/file/file_sample.hpp"
 #include "clackers/diagnose/file/reading.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
 #include "clackers/diagnose/system/measured_causes.hpp"
@@ -26,11 +29,46 @@ constexpr double as_good = 2.0;
 /// The rows that all parameters are fitted to; those that explain these are fitted to all rows.
 constexpr std::size_t most_rows = 100;
 
-struct ParameterFit {
+/// What has another value: a parameter, or the clock, whose times are a factor too large.
+struct Candidate {
   CaseParameter parameter;
+  bool is_clock = false;
+  /// The motion at the times of a file; empty where it is not available.
+  std::function<model::Trajectory(double value, std::span<const double> t, bool with_v)> rows_of{};
+
+  /// Of candidates that explain as much the lower one is believed.
+  int rank() const { return is_clock ? 2 : parameter.is_setting ? 0 : 1; }
+};
+
+struct ParameterFit {
+  const Candidate* candidate;
   double value = 0.0, uncertainty = 0.0;
   double distance = INFINITY;
+  double v_distance = 0.0;  ///< of velocities, at least `distance`
 };
+
+std::vector<Candidate> candidates_of(const DiagnosisInput& question) {
+  std::vector<Candidate> all;
+  for (const auto& parameter : question.family.parameters)
+    all.push_back({parameter, false,
+                   [&family = question.family, parameter](double value, std::span<const double> t,
+                                                          bool with_v) -> model::Trajectory {
+                     auto changed = parameter;
+                     changed.value = value;
+                     const auto motion = family.motion_of(std::array{changed});
+                     if (motion == nullptr || motion->end() < t.back()) return {};
+                     return reference_rows(*motion, t, with_v);
+                   }});
+  all.push_back({{"", 1.0, "1"},
+                 true,
+                 [&motion = question.motion](double factor, std::span<const double> t,
+                                             bool with_v) -> model::Trajectory {
+                   std::vector<double> times(t.begin(), t.end());
+                   for (double& time : times) time /= factor;
+                   return reference_rows(motion, times, with_v);
+                 }});
+  return all;
+}
 
 // Relative to the value of the case, which may be 0.
 double unit_of(const CaseParameter& parameter) {
@@ -38,15 +76,13 @@ double unit_of(const CaseParameter& parameter) {
 }
 
 // From the value of the case, or from one that is near already.
-ParameterFit fitted(const FitRows& rows, const CaseFamily& family, const CaseParameter& parameter,
+ParameterFit fitted(const FitRows& rows, const Candidate& candidate,
                     std::optional<double> near = {}) {
+  const auto& parameter = candidate.parameter;
   const auto residual = [&](const std::vector<double>& change,
                             std::size_t count) -> std::vector<double> {
-    auto changed = parameter;
-    changed.value += change[0];
-    const auto motion = family.motion_of(std::array{changed});
-    if (motion == nullptr || motion->end() < rows.t[count - 1]) return {};
-    auto left = reference_rows(*motion, std::span(rows.t).first(count), false).u;
+    auto left =
+        candidate.rows_of(parameter.value + change[0], std::span(rows.t).first(count), false).u;
     for (std::size_t i = 0; i < left.size(); ++i)
       left[i] = rows.u[i] - left[i] * rows.inverse_scale[i % rows.dof()];
     return left;
@@ -56,7 +92,7 @@ ParameterFit fitted(const FitRows& rows, const CaseFamily& family, const CasePar
   const auto fit =
       near ? refine_values(rows, residual, units, {*near - parameter.value})
            : fit_values(rows, residual, units, first_part * (rows.t.back() - rows.t[0]));
-  ParameterFit found{parameter};
+  ParameterFit found{&candidate};
   if (fit.values.empty() || fit.values[0] == 0.0) return found;
   found.value = parameter.value + fit.values[0];
   found.uncertainty = fit.uncertainty[0];
@@ -77,17 +113,37 @@ FitRows thinned(const FitRows& rows) {
 }
 
 // Those that explain the rows, and the next best, the best first.
-std::vector<ParameterFit> fitted_to_all(const FitRows& rows, const CaseFamily& family) {
+std::vector<ParameterFit> fitted_to_all(const FitRows& rows,
+                                        const std::vector<Candidate>& candidates) {
   constexpr double apart = least_race_lead * least_race_lead;
   const auto few = thinned(rows);
   std::vector<ParameterFit> fits;
-  for (const auto& parameter : family.parameters) fits.push_back(fitted(few, family, parameter));
+  for (const auto& candidate : candidates) fits.push_back(fitted(few, candidate));
   const double best = std::ranges::min(fits, {}, &ParameterFit::distance).distance;
   if (!(rows.distance > best * 0.5 * least_system_gain)) return {};
   for (auto& fit : fits)
-    if (fit.distance < apart * best) fit = fitted(rows, family, fit.parameter, fit.value);
+    if (fit.distance < apart * best) fit = fitted(rows, *fit.candidate, fit.value);
   std::ranges::stable_sort(fits, {}, &ParameterFit::distance);
   return fits;
+}
+
+// Of fits that displacements do not tell apart, those that velocities do not either, and of these the
+// first to be believed.
+void keep_likeliest(std::vector<ParameterFit>& fits, const Observation& seen,
+                    const model::Motion& motion) {
+  const FileSample sample(seen, motion);
+  if (sample.has_v()) {
+    for (auto& fit : fits) {
+      const auto rows = fit.candidate->rows_of(fit.value, sample.rows().t, true);
+      fit.v_distance = rows.t.empty() ? INFINITY : sample.distance_between(sample.rows(), rows).v;
+      fit.v_distance = std::max(fit.v_distance, fit.distance);
+    }
+    const double most = as_good * std::ranges::min(fits, {}, &ParameterFit::v_distance).v_distance;
+    std::erase_if(fits, [&](const ParameterFit& fit) { return fit.v_distance > most; });
+  }
+  const auto rank = [](const ParameterFit& fit) { return fit.candidate->rank(); };
+  const int first = rank(std::ranges::min(fits, {}, rank));
+  std::erase_if(fits, [&](const ParameterFit& fit) { return rank(fit) > first; });
 }
 
 // Whether a motion obeys the equations of the case between impacts, so that only impacts differ: at nine
@@ -114,10 +170,12 @@ bool has_flights_of_case(const model::Motion& motion, const DiagnosisInput& ques
 // of damping as w h w t/2 and are no other parameter to more than the next power of w h.
 bool may_be_numerical(const ParameterFit& fit, const FitRows& rows,
                       const DiagnosisInput& question) {
-  auto changed = fit.parameter;
-  changed.value = fit.value;
-  const auto motion = question.family.motion_of(std::array{changed});
-  if (has_flights_of_case(*motion, question, thinned(rows).t)) return false;
+  if (!fit.candidate->is_clock) {
+    auto changed = fit.candidate->parameter;
+    changed.value = fit.value;
+    const auto motion = question.family.motion_of(std::array{changed});
+    if (has_flights_of_case(*motion, question, thinned(rows).t)) return false;
+  }
   const double distance = rows.distance, gain = distance / fit.distance,
                step = question.histories.back().facts.step;
   const auto peak = question.motion.peak();
@@ -132,16 +190,22 @@ bool may_be_numerical(const ParameterFit& fit, const FitRows& rows,
 
 Diagnosis diagnosis_of_all(const std::vector<ParameterFit>& found) {
   const auto& best = found.front();
+  const auto& parameter = best.candidate->parameter;
+  if (best.candidate->is_clock) {
+    auto one = diagnosis_of(Code("time-unit"), best.value, parameter.unit);
+    one.evidence = {{"uncertainty", best.uncertainty}};
+    return one;
+  }
   if (found.size() == 1) {
-    auto one = diagnosis_of(Code("parameter-differs"), best.value, best.parameter.unit);
-    one.text = best.parameter.name;
-    one.evidence = {{"uncertainty", best.uncertainty}, {"expected", best.parameter.value}};
+    auto one = diagnosis_of(Code("parameter-differs"), best.value, parameter.unit);
+    one.text = parameter.name;
+    one.evidence = {{"uncertainty", best.uncertainty}, {"expected", parameter.value}};
     return one;
   }
   auto one = diagnosis_of(Code("parameter-differs"), NAN, "");
   for (const auto& fit : found)
-    one.text += fmt::format("{}{} = {}", one.text.empty() ? "" : " or ", fit.parameter.name,
-                            short_number(fit.value, 6));
+    one.text += fmt::format("{}{} = {}", one.text.empty() ? "" : " or ",
+                            fit.candidate->parameter.name, short_number(fit.value, 6));
   return one;
 }
 
@@ -152,7 +216,8 @@ std::optional<Diagnosis> other_parameter(const DiagnosisInput& question) {
   const auto& finest = question.histories.back();
   const auto rows = fit_rows(finest, question.motion);
   if (!rows.is_far()) return {};
-  auto fits = fitted_to_all(rows, question.family);
+  const auto candidates = candidates_of(question);
+  auto fits = fitted_to_all(rows, candidates);
   if (fits.empty()) return {};
   const double left = fits.front().distance, gain = rows.distance / left;
   const auto last = std::ranges::find_if(
@@ -161,7 +226,9 @@ std::optional<Diagnosis> other_parameter(const DiagnosisInput& question) {
       (last != fits.end() && last->distance < least_race_lead * left))
     return {};
   const double second = last == fits.end() ? 0.0 : rows.distance / last->distance;
+  const bool is_second_clock = last != fits.end() && last->candidate->is_clock;
   fits.erase(last, fits.end());
+  keep_likeliest(fits, finest, question.motion);
 
   const auto coarser = std::ranges::find_if(
       question.histories.rbegin(), question.histories.rend(), [&](const Observation& one) {
@@ -172,11 +239,11 @@ std::optional<Diagnosis> other_parameter(const DiagnosisInput& question) {
     const auto other = fit_rows(*coarser, question.motion);
     if (!other.is_far()) return {};
     std::erase_if(fits, [&](ParameterFit& fit) {
-      const auto again = fitted(other, question.family, fit.parameter, fit.value);
+      const auto again = fitted(other, *fit.candidate, fit.value);
       const double apart = std::abs(again.value - fit.value);
       fit.uncertainty = std::max(fit.uncertainty, apart);
       return other.distance < least_gain_beside * again.distance ||
-             apart > constant_change * std::abs(fit.value - fit.parameter.value);
+             apart > constant_change * std::abs(fit.value - fit.candidate->parameter.value);
     });
   } else if (gain < least_gain_alone || std::ranges::any_of(fits, [&](const ParameterFit& fit) {
                return may_be_numerical(fit, rows, question);
@@ -190,7 +257,7 @@ std::optional<Diagnosis> other_parameter(const DiagnosisInput& question) {
   cause.evidence.insert(cause.evidence.begin(), {"gain", gain});
   cause.evidence.push_back({"files", files});
   if (second >= 1.0) {
-    cause.runner_up = cause.code;
+    cause.runner_up = (is_second_clock ? Code("time-unit") : Code("parameter-differs")).name();
     cause.evidence.push_back({"runner-up-gain", second});
   }
   return cause;

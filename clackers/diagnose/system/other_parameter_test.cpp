@@ -91,6 +91,36 @@ TEST(OtherParameter, OfAContactOfAProblemFileIsFound) {
   EXPECT_EQ(codes(causes_in(made("stiffness = 200"), made("stiffness = 200"), 2)), "");
 }
 
+TEST(OtherParameter, OfAContactOfACaseIsFound) {
+  const auto problem = cases::make("forced-pair");
+  auto solved = problem;
+  solved.problem.contacts[0].gap -= 0.005;
+  for (const int count : {1, 2}) {
+    Files files{problem};
+    double h = 0.01;
+    for (int i = 0; i < count; ++i, h *= 0.5)
+      files.add(methods::runs::run("rk4", solved.problem, h).trajectory, h);
+    const auto found = system_causes(files.question());
+    ASSERT_EQ(codes(found), "parameter-differs");
+    EXPECT_EQ(found[0].text, "gap of contact 1");
+    EXPECT_NEAR(found[0].value, solved.problem.contacts[0].gap, 1e-5);
+  }
+}
+
+// The pendulum in u alone is one of another g as well.
+TEST(OtherParameter, AFastClockIsNoParameter) {
+  const auto problem = cases::make("pendulum");
+  Files files{problem};
+  for (const double h : {0.01, 0.005}) {
+    auto rows = exact_rows(problem, h, 0.99 * problem.motion->end());
+    for (double& t : rows.t) t *= 1.001;
+    files.add(rows, h);
+  }
+  const auto found = system_causes(files.question());
+  ASSERT_EQ(codes(found), "time-unit");
+  EXPECT_NEAR(found[0].value, 1.001, 1e-8);
+}
+
 TEST(OtherParameter, ParametersThatExplainAsMuchAreAllNamed) {
   const auto problem = cases::make("pendulum");
   const auto solved = cases::make("pendulum", {{"g", 1.05 * 9.81}});
@@ -100,7 +130,8 @@ TEST(OtherParameter, ParametersThatExplainAsMuchAreAllNamed) {
   // Both scale g.
   question.family.parameters = {{"g", 9.81}, {"G", 2.0}, {"l", 1.0}};
   question.family.motion_of = [](std::span<const CaseParameter> values) {
-    const auto& [name, value, unit] = values.front();
+    const auto& name = values.front().name;
+    const double value = values.front().value;
     return name == "l"
                ? cases::make("pendulum", {{"l", value}}).motion
                : cases::make("pendulum", {{"g", name == "g" ? value : value * 4.905}}).motion;

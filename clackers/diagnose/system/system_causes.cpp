@@ -146,7 +146,9 @@ std::vector<Diagnosis> judged(const Race& found, Try attempt, const FitQuestion&
                              : least_gain_alone;
     if (best.gain < least || may_be_numerical(best, finest, question)) return {};
     confidence = std::min(0.9, confidence_of(best.gain, least));
-    grows = whole;
+    // More of them are rather a clock that starts late.
+    constexpr double most_steps = 10.0;
+    grows = whole && std::abs(steps) <= most_steps;
   }
   auto diagnosis = hypothesis.diagnosis(question.problem, best.d, spread);
   diagnosis.confidence = confidence;

@@ -84,6 +84,27 @@ TEST(SystemCauses, OneFileNamesAFrequencyThatNoMethodMakes) {
   EXPECT_EQ(codes(causes(0.25)), "");
 }
 
+// By half a fast period and more.
+TEST(SystemCauses, AClockThatStartsLateIsOneShiftOfTime) {
+  const auto which = cases::make("three-parameter");
+  for (const double late : {0.7, 1.0, 5.3})
+    for (const int count : {1, 2})
+      for (const bool has_v : {true, false}) {
+        Files files{which};
+        for (int i = 0; i < count; ++i) {
+          const double h = 0.02 / (i + 1.0);
+          auto rows = exact_rows(which, h, which.motion->end() - late - h);
+          for (double& t : rows.t) t += late;
+          if (!has_v) rows.v.clear();
+          files.add(rows, h);
+        }
+        const auto found = system_causes(files.question());
+        ASSERT_EQ(codes(found), "time-shifted") << late << count << has_v;
+        EXPECT_EQ(found[0].unit, "s");
+        EXPECT_NEAR(found[0].value, late, 1e-9);
+      }
+}
+
 TEST(SystemCauses, WhatRoundingMakesIsNoCause) {
   const auto which = cases::make("three-parameter");
   Files files{which};

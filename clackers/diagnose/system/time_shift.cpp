@@ -4,6 +4,7 @@
 #include "clackers/diagnose/file/file_sample.hpp"
 #include "clackers/diagnose/file/reading.hpp"
 #include "clackers/diagnose/ladder/ladder_families.hpp"
+#include "clackers/diagnose/system/fit_rows.hpp"
 #include "clackers/diagnose/system/measured_causes.hpp"
 
 namespace clackers::diagnose {
@@ -15,9 +16,10 @@ struct Shift {
 
 // Gauss-Newton steps of the time by which the states of a file stand late.
 Shift shift_of(const FileSample& file) {
-  Shift shift;
+  Shift shift{.seconds = late_start(file.history(), file.motion())};
   const auto& rows = file.rows();
   auto times = rows.t;
+  for (double& t : times) t -= shift.seconds;
   const auto dof = std::size_t(rows.dof);
   for (int step = 0; step < 6; ++step) {
     const auto reference = reference_rows(file.motion(), times);

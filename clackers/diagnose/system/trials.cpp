@@ -63,7 +63,10 @@ Trial tried(const FitFile& file, const Hypothesis& hypothesis, const FitQuestion
     trial.gain = file.rows.distance / rms(file.rows.residual(base, file.rows.t.size()));
     return trial;
   }
-  const auto fit = fit_system(file.rows, base, {&*hypothesis.parameter, 1});
+  const std::span parameters(&*hypothesis.parameter, 1);
+  const bool is_late = parameters[0].change == Change::time_shift && file.late_start > 0.0;
+  const auto fit = is_late ? refine_system(file.rows, base, parameters, {file.late_start})
+                           : fit_system(file.rows, base, parameters);
   if (fit.values.empty()) return trial;
   trial.d = fit.values[0];
   trial.uncertainty = fit.uncertainty[0];

@@ -6,13 +6,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "clackers/base/error.hpp"
 
 namespace clackers::input {
 namespace {
-
-constexpr int whole_double = 17;  // digits; no double has more
 
 // Of the shortest decimal text that reads back to x; 0 for zero.
 int shortest_digits(double x) {
@@ -106,7 +105,8 @@ void NumberTable::read_number(std::size_t column, Number& number) {
   number.value = value(column);
   if (!std::isfinite(number.value)) refuse_not_finite(column, fmt::format("{}", number.value));
   auto& digits = digits_[column];
-  if (digits < whole_double) digits = std::max(digits, shortest_digits(number.value));
+  if (digits < std::numeric_limits<double>::max_digits10)
+    digits = std::max(digits, shortest_digits(number.value));
   number.digits = digits;
 }
 

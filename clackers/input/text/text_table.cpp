@@ -91,13 +91,16 @@ void TextTable::name_columns(const std::vector<std::string>& given,
     names.clear();
     if (events && fields_.size() == 1) names.emplace_back("t");
   }
-  if (names.empty())
+  if (names.empty()) {
+    const bool is_decimal = separation_.is_comma() && std::ranges::any_of(fields_, has_inner_blank);
     throw InputError(
-        fmt::format("{}: {} columns of numbers have no names; {}.", place(), fields_.size(),
+        fmt::format("{}: {} columns of numbers have no names; {}.{}{}", place(), fields_.size(),
                     events ? "name them in a header line, the times t"
                            : "name them in a header line or with --columns, for example "
-                             "--columns t,u1,v1 (_ skips one)"),
+                             "--columns t,u1,v1 (_ skips one)",
+                    is_decimal ? " " : "", is_decimal ? decimal_comma_hint : ""),
         "no-column");
+  }
   set_names(std::move(names));
 }
 

@@ -142,6 +142,7 @@ TEST(TextTable, RefusesDecimalCommasWithAHint) {
   EXPECT_REFUSED(read("t\tu1\n0,0\t1\n"), "decimal-comma", "decimal point");
   EXPECT_REFUSED(read("t,u1\n0,5,-2,0\n"), "ragged-row", "Are the commas decimal?");
   EXPECT_REFUSED(read("0,05 1,0\n", {"t", "u1", "v1"}), "decimal-comma", "\"05 1\"");
+  EXPECT_REFUSED(read("0,05 1,0\n"), "no-column", "Are the commas decimal?");
 }
 
 TEST(TextTable, RefusesWhatIsNoFiniteNumberWithItsLine) {

@@ -83,8 +83,56 @@ std::vector<std::vector<std::size_t>> common_rows(
   return rows;
 }
 
+// Which part was compared, where a history has more; empty where that is all.
+std::string part_text(const input::History& first, const input::History& second,
+                      const std::vector<std::vector<std::size_t>>& rows) {
+  const auto& t = first.motion.t;
+  std::vector<double> gaps;
+  for (std::size_t k = 1; k < rows.size(); ++k) gaps.push_back(t[rows[k][0]] - t[rows[k - 1][0]]);
+  const auto middle = gaps.begin() + std::ssize(gaps) / 2;
+  std::ranges::nth_element(gaps, middle);
+  const double from = t[rows.front()[0]], to = t[rows.back()[0]];
+  // Histories of two steps end up to a step apart.
+  const double slack = 2.0 * std::max({*middle, first.spacing, second.spacing});
+  std::string longer;
+  for (const auto& [name, times] : {std::pair{"first", &t}, {"second", &second.motion.t}})
+    if (times->front() < from - slack || times->back() > to + slack)
+      longer += fmt::format("; the {} set goes from {:.6g} to {:.6g} s", name, times->front(),
+                            times->back());
+  return longer.empty()
+             ? longer
+             : fmt::format(" Compared from {:.6g} to {:.6g} s only{}.", from, to, longer);
+}
+
+// Of times in thousandths or millionths of a second in one of the two.
+std::string time_unit_hint(double first, double second) {
+  constexpr double slack = 0.02;
+  const double ratio = std::max(first, second) / std::min(first, second);
+  for (const double factor : {1e3, 1e6})
+    if (std::abs(ratio / factor - 1.0) < slack)
+      return fmt::format(
+          " The times of the first go up to {:.6g} and those of the second to {:.6g}, a factor of "
+          "{:g}: both must be in seconds.",
+          first, second, factor);
+  return {};
+}
+
+// The first and the last file of each set, without folders where that tells the sets apart.
+std::array<std::string, 2> set_names(const std::array<std::vector<input::Source>, 2>& sets) {
+  std::array<std::string, 2> whole, brief;
+  for (std::size_t set = 0; set < sets.size(); ++set) {
+    whole[set] = input::name_of(sets[set].front());
+    brief[set] = whole[set].substr(whole[set].find_last_of('/') + 1);
+    if (sets[set].size() == 1) continue;
+    const auto last = input::name_of(sets[set].back());
+    whole[set] += " ... " + last;
+    brief[set] += " ... " + last.substr(last.find_last_of('/') + 1);
+  }
+  return brief[0] != brief[1] ? brief : whole;
+}
+
 // The differences between levels at the times that all of them have.
-std::vector<record::Cell> self_row(const char* name, const Levels& levels, double size) {
+std::vector<record::Cell> self_row(std::string name, const Levels& levels, double size) {
   constexpr std::size_t least_levels = 5;
   std::vector<const model::Trajectory*> histories;
   double least = INFINITY, most = 0.0;  // ratio of steps
@@ -94,7 +142,7 @@ std::vector<record::Cell> self_row(const char* name, const Levels& levels, doubl
     least = std::min(least, levels[i - 1].step / levels[i].step);
     most = std::max(most, levels[i - 1].step / levels[i].step);
   }
-  std::vector<record::Cell> row{name, (long long)(levels.size()), levels.back().step};
+  std::vector<record::Cell> row{std::move(name), (long long)(levels.size()), levels.back().step};
   row.resize(5);
   row.emplace_back("five histories with one ratio of steps give an order");
   if (levels.size() < least_levels || !(least > 1.0 && most <= 1.01 * least)) return row;
@@ -180,7 +228,9 @@ AgainstResult check_against(const AgainstRequest& request, const std::atomic<boo
   if (rows.size() < least_common_times)
     refuse(against_name, "common times of the finest histories", double(rows.size()),
            fmt::format("{} or more", least_common_times),
-           "Nothing is interpolated: write both at the same times.", "wrong-size");
+           "Nothing is interpolated: write both at the same times." +
+               time_unit_hint(a.t.back(), b.t.back()),
+           "wrong-size");
   record::Sheet masses{"clackers/differences/1",
                        "",
                        {{"mass", "", "from 1"},
@@ -215,25 +265,32 @@ AgainstResult check_against(const AgainstRequest& request, const std::atomic<boo
     masses.rows.push_back({(long long)(mass) + 1, difference, relative, time, since});
   }
   AgainstResult result;
-  result.is_within = !request.tolerance || largest <= *request.tolerance;
+  const bool is_within = !request.tolerance || largest <= *request.tolerance;
+  auto part = part_text(first.back().history, second.back().history, rows);
+  result.is_within = is_within;
+  if (request.tolerance && is_within && !part.empty()) {
+    part += " The rest is undecided.";
+    result.is_within.reset();
+  }
   const auto limit = !request.tolerance
                          ? std::string()
-                         : fmt::format(", {} the tolerance of {}",
-                                       result.is_within ? "within" : "beyond", *request.tolerance);
+                         : fmt::format(", {} the tolerance of {}", is_within ? "within" : "beyond",
+                                       *request.tolerance);
   masses.title = fmt::format(
       "The two differ by up to {} of the largest displacement{}, at {} common times; nothing is "
-      "interpolated. Agreement is no proof: both may be wrong the same way.",
-      scientific(largest), limit, rows.size());
+      "interpolated.{} Agreement is no proof: both may be wrong the same way.",
+      scientific(largest), limit, rows.size(), part);
   record::Sheet sets{"clackers/self-convergence/1",
                      "Each set by itself, from the differences between its histories",
-                     {{"set", "", "in the order given"},
+                     {{"set", "", "its first and last history, in the order given"},
                       {"histories", "", ""},
                       {"finest", "", "step [s] or tolerance"},
                       {"order", "", "with which the differences fall"},
                       {"±", "", "half width of the order's 95 % interval"},
                       {"behaviour", "", "of the differences"}},
                      {}};
-  if (size > 0.0) sets.rows = {self_row("first", first, size), self_row("second", second, size)};
+  const auto names = set_names(request.sets);
+  if (size > 0.0) sets.rows = {self_row(names[0], first, size), self_row(names[1], second, size)};
   result.sheets = {std::move(masses), std::move(sets)};
   result.differences = difference_curves(a, b, rows, peaks);
   if (first_mass > 0) {

@@ -28,7 +28,8 @@ struct AgainstResult {
   std::vector<record::Sheet> sheets;
   /// Curves of the relative differences of the first masses; the mark is where the first is visible.
   record::Sheet differences;
-  bool is_within = true;  ///< of the tolerance; true without one
+  /// Of the tolerance; true without one, nothing where only a part could be compared and is.
+  std::optional<bool> is_within = true;
 };
 
 /// A difference of displacements over the largest displacement of the mass.

@@ -16,6 +16,7 @@ namespace {
 
 using diagnose::CaseFamily, diagnose::CaseParameter;
 using Change = std::function<void(model::ImpactProblem<>&, double)>;
+using Motion = std::shared_ptr<const model::Motion>;
 
 cases::Settings changed(cases::Settings values, std::span<const CaseParameter> parameters) {
   for (const auto& parameter : parameters)
@@ -34,15 +35,18 @@ void change_spring(model::ImpactProblem<>& problem, std::size_t i, const auto& c
       std::make_shared<model::OneSidedSprings>(std::move(contacts), std::move(stiffnesses));
 }
 
-// Of a problem file the numbers of its contacts: what else it states acts between impacts and is measured there.
-CaseFamily family_of_file(const cases::Case& problem) {
-  CaseFamily family;
-  std::vector<Change> changes;
+struct ContactNumber {
+  CaseParameter parameter;
+  Change change;
+};
+
+std::vector<ContactNumber> contact_numbers(const model::ImpactProblem<>& problem) {
+  std::vector<ContactNumber> all;
+  if (!problem.unstated.empty()) return all;
   const auto add = [&](std::string name, double value, const char* unit, Change change) {
-    family.parameters.push_back({std::move(name), value, unit});
-    changes.push_back(std::move(change));
+    all.push_back({{std::move(name), value, unit, false}, std::move(change)});
   };
-  if (const auto* springs = model::one_sided_springs(problem.problem))
+  if (const auto* springs = model::one_sided_springs(problem))
     for (std::size_t i = 0; i < springs->contacts().size(); ++i) {
       add(fmt::format("stiffness of one-sided spring {}", i + 1), springs->stiffnesses()[i], "N/m",
           [i](auto& p, double value) {
@@ -53,47 +57,39 @@ CaseFamily family_of_file(const cases::Case& problem) {
             change_spring(p, i, [&](auto& c, double&) { c.gap = value; });
           });
     }
-  for (std::size_t i = 0; i < problem.problem.contacts.size(); ++i) {
-    const auto& contact = problem.problem.contacts[i];
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
+    const auto& contact = problem.contacts[i];
     add(fmt::format("gap of contact {}", i + 1), contact.gap, "m",
         [i](auto& p, double value) { p.contacts[i].gap = value; });
     add(fmt::format("restitution of contact {}", i + 1), contact.restitution, "1",
         [i](auto& p, double value) { p.contacts[i].restitution = value; });
   }
-  family.motion_of =
-      [&problem, changes, known = family.parameters](
-          std::span<const CaseParameter> values) -> std::shared_ptr<const model::Motion> {
-    auto other = problem.problem;
-    for (const auto& [name, value, unit] : values)
-      changes[std::size_t(std::ranges::find(known, name, &CaseParameter::name) - known.begin())](
-          other, value);
-    try {
-      return std::make_shared<const exact::PiecewiseMotion>(other);
-    } catch (const InputError&) {
-      return nullptr;
-    }
-  };
-  return family;
+  return all;
 }
 
 }  // namespace
 
-bool is_of_a_file(const cases::Case& problem) {
-  return !problem.values.empty() && std::ranges::all_of(problem.values, [](const auto& setting) {
-    return setting.second.is_word();
-  });
-}
-
 CaseFamily family_of(const cases::Case& problem) {
-  if (is_of_a_file(problem)) return family_of_file(problem);
   CaseFamily family;
   for (std::size_t i = 0; i < problem.values.size(); ++i)
     if (const auto& [name, value] = problem.values[i]; !value.is_word())
       family.parameters.push_back({name, value, problem.entry->parameters[i].unit});
+  auto numbers = contact_numbers(problem.problem);
+  for (const auto& number : numbers) family.parameters.push_back(number.parameter);
   family.motion_of =
-      [&problem](std::span<const CaseParameter> values) -> std::shared_ptr<const model::Motion> {
+      [&problem, numbers = std::move(numbers)](std::span<const CaseParameter> values) -> Motion {
     try {
-      return cases::make(problem.entry->name, changed(problem.values, values)).motion;
+      Motion motion;
+      if (std::ranges::all_of(values, &CaseParameter::is_setting)) {
+        motion = cases::make(problem.entry->name, changed(problem.values, values)).motion;
+      } else {
+        auto other = problem.problem;
+        for (const auto& value : values)
+          for (const auto& number : numbers)
+            if (number.parameter.name == value.name) number.change(other, value.value);
+        motion = std::make_shared<const exact::PiecewiseMotion>(other);
+      }
+      return motion->dof() == problem.motion->dof() ? motion : nullptr;
     } catch (const InputError&) {
       return nullptr;
     }

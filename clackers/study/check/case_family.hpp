@@ -5,11 +5,8 @@
 
 namespace clackers::study {
 
-/// Whether a case is a problem file, none of whose numbers is a parameter.
-bool is_of_a_file(const cases::Case& problem);
-
-/// The parameters of a case that are numbers, of a problem file those of its contacts, and its motions. The case must
-/// outlive it.
+/// The parameters of a case that are numbers, then the numbers of its contacts and one-sided springs, and its motions
+/// of as many masses. Parameters that are asked for together are all settings, or none is. The case must outlive it.
 diagnose::CaseFamily family_of(const cases::Case& problem);
 
 }  // namespace clackers::study

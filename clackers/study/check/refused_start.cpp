@@ -19,7 +19,6 @@ void refuse_by(const std::string& name, diagnose::Diagnosis found) {
 // "N=5,xi1=0.25"; empty where no parameters start the case so.
 std::string settings_of(const diagnose::FirstRows& opening, const cases::Case& problem) {
   std::string settings;
-  if (is_of_a_file(problem)) return settings;
   for (const auto& parameter :
        diagnose::start_parameters(opening, problem.problem, *problem.motion, family_of(problem)))
     settings +=

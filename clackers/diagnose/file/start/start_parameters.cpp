@@ -21,7 +21,7 @@ class Search {
  public:
   Search(const FirstRow& row, const CaseFamily& family) : row_(row), motion_of_(family.motion_of) {
     for (const auto& parameter : family.parameters) {
-      if (!moves_start(parameter)) continue;
+      if (!parameter.is_setting || !moves_start(parameter)) continue;
       (is_whole(parameter) ? whole_ : real_).push_back(parameter);
     }
   }

@@ -54,6 +54,13 @@ TEST(StartParameters, FindsNoneForFilesThatAreReadWrongly) {
   EXPECT_EQ(found_for("synchronized-pair", rows), "");
 }
 
+// left and right are numbers of buildings.
+TEST(StartParameters, NeverMakeAnotherNumberOfMasses) {
+  auto rows = exact_rows(cases::make("buildings"), 0.1);
+  rows.v[0] *= 1.5;
+  EXPECT_TRUE(found_for("buildings", rows).ends_with(",V=1.5"));
+}
+
 // Damped, though it starts with the velocities of the undamped case.
 TEST(StartParameters, TakesAStartAtRestForNoUndampedSystem) {
   for (const char* name : {"three-parameter", "stop", "sdof", "symmetric-pair"}) {

@@ -4,6 +4,7 @@
 
 #include "clackers/base/constants.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/diagnose/ladder/impact_location.hpp"
 #include "clackers/measure/errors/comparison.hpp"
 #include "clackers/record/all_metrics.hpp"
 #include "clackers/record/notes.hpp"
@@ -93,6 +94,10 @@ class Measurement {
                                     .order = history_.data.names,
                                     .contact_time = file_.contact_time};
     observation_ = diagnose::observe(comparison, facts);
+    // A rigid contact noticed late holds several rows as well.
+    if (file_.contact_time > 0.0 &&
+        diagnose::locate_impacts(*observation_, problem_.problem).is_rigid())
+      observation_->facts.contact_time = file_.contact_time = 0.0;
   }
 
   // A contact of fewer rows than four is an impact whose limits are rows apart.

@@ -35,8 +35,8 @@ ComparedHistory failed(PreparedHistory history, double step) {
 ComparedHistory history_run(const HistoryTask& task, const std::vector<std::string>& columns,
                             const cases::Case& problem, const record::CaseSummary& summary,
                             const Progress& progress, const std::atomic<bool>* interrupt) {
-  auto history = prepare(task, read(task, columns, problem.motion->dof(), progress, interrupt),
-                         problem, summary);
+  auto history =
+      prepare(task, read(task, columns, problem.motion->dof(), progress, interrupt), problem);
   const double step = task.step > 0.0 ? task.step : history.file.spacing;
   if (task.step > 0.0) history.file.step_source = record::StepSource::option;
   if (!history.data.not_finite.empty()) return failed(std::move(history), step);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 
 #include "clackers/input/history.hpp"
@@ -31,6 +32,12 @@ void add_events(PreparedHistory& history, const input::Source& events, const cas
   const auto outside = [&](const model::Impact& i) {
     return i.t < m.t.front() || i.t > m.t.back();
   };
+  if (!impacts.empty()) {
+    constexpr double least_part = 0.5;  // of the run, by the last impact
+    const auto kept = std::ranges::count_if(impacts, std::not_fn(outside));
+    require_seconds(input::given_name(events), impacts.back().t,
+                    double(kept) / double(impacts.size()), least_part, problem);
+  }
   if (const auto left_out = std::erase_if(impacts, outside); left_out > 0)
     history.file.notes.push_back(record::note(
         "events-outside", {double(left_out), m.t.front(), m.t.back()}, input::given_name(events)));

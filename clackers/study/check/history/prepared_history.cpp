@@ -35,9 +35,8 @@ namespace {
 
 class Preparation {
  public:
-  Preparation(const HistoryTask& task, input::History history, const cases::Case& problem,
-              const record::CaseSummary& summary)
-      : task_(task), problem_(problem), summary_(summary), h_(std::move(history)) {
+  Preparation(const HistoryTask& task, input::History history, const cases::Case& problem)
+      : task_(task), problem_(problem), h_(std::move(history)) {
     file_.file = input::given_name(task.file);
     file_.notes = std::move(h_.notes);
     file_.has_velocities = !h_.motion.v.empty();
@@ -110,29 +109,13 @@ class Preparation {
     return opening;
   }
 
-  // A run of the length of the case, its times in thousandths or millionths of a second.
-  void require_seconds(std::size_t kept) const {
-    const auto& t = h_.motion.t;
-    constexpr double most_kept = 0.1, slack = 0.02;
-    if (double(kept) > most_kept * double(t.size())) return;
-    for (const auto& [factor, unit] : {std::pair{1e3, "milliseconds"}, {1e6, "microseconds"}}) {
-      const double length = factor * problem_.motion->end();
-      if (std::abs(t.back() / length - 1.0) < slack)
-        throw InputError(
-            fmt::format("{}: {} They go up to {:.6g}, and {} ends at {:.6g} s.", name(),
-                        diagnose::sentence_of({.code = "time-unit", .value = factor, .text = unit}),
-                        t.back(), summary_.name, summary_.end),
-            "time-unit");
-    }
-  }
-
   // Rows after the end of the case are left out; a time that only printing carries past it stays.
   void cut_at_end() {
     auto& m = h_.motion;
     const double end = problem_.motion->end();
     const double slack = h_.time_half_unit + 4.0 * std::numeric_limits<double>::epsilon() * end;
     const auto kept = std::size_t(std::ranges::upper_bound(m.t, end + slack) - m.t.begin());
-    require_seconds(kept);
+    require_seconds(name(), m.t.back(), double(kept) / double(m.t.size()), 1.0, problem_);
     file_.rows_beyond = static_cast<long long>(m.t.size() - kept);
     const auto dof = std::size_t(m.dof);
     m.t.resize(kept);
@@ -164,16 +147,28 @@ class Preparation {
 
   const HistoryTask& task_;
   const cases::Case& problem_;
-  const record::CaseSummary& summary_;
   input::History h_;
   record::HistoryFile file_;
 };
 
 }  // namespace
 
-PreparedHistory prepare(const HistoryTask& task, input::History data, const cases::Case& problem,
-                        const record::CaseSummary& summary) {
-  return Preparation(task, std::move(data), problem, summary).run();
+void require_seconds(const std::string& name, double last, double kept, double least_part,
+                     const cases::Case& problem) {
+  constexpr double most_kept = 0.1, slack = 0.02;
+  if (kept > most_kept) return;
+  const double end = problem.motion->end();
+  for (const auto& [factor, unit] : {std::pair{1e3, "milliseconds"}, {1e6, "microseconds"}})
+    if (const double part = last / (factor * end); part > least_part - slack && part < 1.0 + slack)
+      throw InputError(
+          fmt::format("{}: {} They go up to {:.6g}, and {} ends at {:.6g} s.", name,
+                      diagnose::sentence_of({.code = "time-unit", .value = factor, .text = unit}),
+                      last, problem.entry->name, end),
+          "time-unit");
+}
+
+PreparedHistory prepare(const HistoryTask& task, input::History data, const cases::Case& problem) {
+  return Preparation(task, std::move(data), problem).run();
 }
 
 }  // namespace clackers::study

@@ -25,11 +25,16 @@ void require_masses(const std::string& name, const input::History& history);
 /// Sets times, leaves rows after the end of the case out, finds what printing hides, and compares
 /// the first row with the case's. Throws InputError as check() does for more masses, times outside the case
 /// and another start.
-PreparedHistory prepare(const HistoryTask& task, input::History data, const cases::Case& problem,
-                        const record::CaseSummary& summary);
+PreparedHistory prepare(const HistoryTask& task, input::History data, const cases::Case& problem);
+
+/// Refuses times (time-unit) of which a tenth at most, `kept`, is within the run, and whose last one is in
+/// thousandths or millionths of a second within it, not before its part `least_part`.
+void require_seconds(const std::string& name, double last, double kept, double least_part,
+                     const cases::Case& problem);
 
 /// Reads the impacts of a history; those outside it are left out, with a note. Where two masses
-/// touch, the place of one gives that of the other. Throws as input::read_events() does.
+/// touch, the place of one gives that of the other. Throws as input::read_events() does, and for times
+/// that are not in seconds.
 void add_events(PreparedHistory& history, const input::Source& events, const cases::Case& problem,
                 const std::atomic<bool>* interrupt);
 
