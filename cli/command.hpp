@@ -91,6 +91,9 @@ void add_explore(Grammar& root);
 void add_report(Grammar& root);
 void add_cite(Grammar& root);
 
+/// What `clackers list` lists.
+std::vector<std::string> listed_kinds();
+
 /// What `clackers --version --verbose` prints.
 std::string version_text();
 

@@ -30,11 +30,15 @@ double read_number(std::string_view what, std::string_view text) {
 
 long long read_whole(std::string_view what, std::string_view text, long long lowest,
                      long long highest) {
-  const double value = read_number(what, text);
-  if (std::isnan(value)) refuse("clackers", what, text, "a whole number", {}, "not-a-number");
-  if (value != std::floor(value)) refuse("clackers", what, text, "a whole number");
-  if (!(value >= double(lowest) && value <= double(highest)))
-    refuse("clackers", what, text, fmt::format("{} to {}", lowest, highest));
+  constexpr long long most_shown = 1'000'000'000'000;
+  const auto rule = highest > most_shown ? std::string("a whole number")
+                                         : fmt::format("a whole number, {} to {}", lowest, highest);
+  double value = 0.0;
+  if (clackers::read_number(text, value) == NumberError::no_number || std::isnan(value))
+    refuse("clackers", what, fmt::format("\"{}\"", text), rule, {}, "not-a-number");
+  value = read_number(what, text);
+  if (!(value >= double(lowest) && value <= double(highest) && value == std::floor(value)))
+    refuse("clackers", what, text, rule);
   return static_cast<long long>(value);
 }
 

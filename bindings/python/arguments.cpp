@@ -22,8 +22,14 @@ bool is_real(const py::array& array) {
 
 // The value as a person would write it, with its type.
 std::string given(py::handle value) {
-  const auto shown = py::reinterpret_steal<py::object>(PyObject_Repr(value.ptr()));
-  if (shown) return fmt::format("{} ({})", shown.cast<std::string>(), description(value));
+  constexpr Py_ssize_t most_shown = 200;
+  if (const auto shown = py::reinterpret_steal<py::object>(PyObject_Repr(value.ptr()))) {
+    const auto start =
+        py::reinterpret_steal<py::object>(PyUnicode_Substring(shown.ptr(), 0, most_shown));
+    return fmt::format("{}{} ({})", start.cast<std::string>(),
+                       PyUnicode_GetLength(shown.ptr()) > most_shown ? "..." : "",
+                       description(value));
+  }
   PyErr_Clear();  // of an object whose own repr() raises
   return description(value);
 }

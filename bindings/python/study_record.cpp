@@ -103,11 +103,13 @@ py::dict subject_of(const record::CaseRecord& problem, const Subject& subject) {
   return all;
 }
 
-// The first failed run where all failed: (sentence, code, printed), else None.
-py::object failure_of_all(const Record& record) {
-  const auto* run = record::failure_of_all(record);
-  if (run == nullptr) return py::none();
-  return py::make_tuple(run->score.failure, run->score.failure_code, run->printed);
+// Of the first solver whose runs all failed: (name, sentence, code, printed) of its first run, else None.
+py::object failed_solver(const Record& record) {
+  const auto failed = record::failed_solvers(record);
+  if (failed.empty()) return py::none();
+  const auto& run = *failed.front().first;
+  return py::make_tuple(failed.front().subject->name, run.score.failure, run.score.failure_code,
+                        run.printed);
 }
 
 const record::CaseRecord& case_at(const Record& record, std::size_t number) {
@@ -172,7 +174,7 @@ void bind_record(py::module_& core) {
            })
       .def("runs",
            [](const Record& record) { return read_run_sheet(report::run_sheet(record.cases)); })
-      .def("failure_of_all", &failure_of_all)
+      .def("failed_solver", &failed_solver)
       .def_property_readonly(
           "cases",
           [](const Record& record) {

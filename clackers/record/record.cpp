@@ -125,16 +125,20 @@ std::string_view verdict_word(const Subject& subject) {
   return to_string(subject.assessment.verdict);
 }
 
-const Run* failure_of_all(const Record& record) {
-  const Run* first = nullptr;
+std::vector<FailedSolver> failed_solvers(const Record& record) {
+  std::vector<FailedSolver> failed;
   for (const auto& problem : record.cases)
-    for (const auto& subject : problem.subjects)
+    for (const auto& subject : problem.subjects) {
+      const Run* first = nullptr;
+      bool has_finished = !is_solver(subject.kind);
       for (const auto& level : subject.levels)
         for (const auto& run : level.runs) {
-          if (run.score.finished) return nullptr;
-          if (first == nullptr && is_solver(subject.kind)) first = &run;
+          if (first == nullptr) first = &run;
+          has_finished = has_finished || run.score.finished;
         }
-  return first;
+      if (first != nullptr && !has_finished) failed.push_back({&problem, &subject, first});
+    }
+  return failed;
 }
 
 std::string_view verdict_word(const Record& record) {
@@ -148,7 +152,7 @@ std::string_view verdict_word(const Record& record) {
 int exit_code(const Record& record) {
   const auto word = verdict_word(record);
   if (record.interrupted) return 130;
-  if (failure_of_all(record) != nullptr) return 4;
+  if (!failed_solvers(record).empty()) return 4;
   return word == to_string(Verdict::disagrees) ? 1 : word == to_string(Verdict::undecided) ? 3 : 0;
 }
 

@@ -226,15 +226,19 @@ Counts counts(const Record& record);
 /// The verdict as text, or "refused" or "interrupted" where there is none.
 std::string_view verdict_word(const Subject& subject);
 
-/// The failure of the first run, where every run of every subject failed and some subject is a
-/// solver; nullptr otherwise.
-const Run* failure_of_all(const Record& record);
+/// A solver none of whose runs on a case finished.
+struct FailedSolver {
+  const CaseRecord* problem;
+  const Subject* subject;
+  const Run* first;  ///< its coarsest run
+};
+std::vector<FailedSolver> failed_solvers(const Record& record);
 
 /// The word of a whole record, the first that holds of: interrupted, disagrees, undecided, agrees, not
 /// claimed. A method that refused the case counts for nothing.
 std::string_view verdict_word(const Record& record);
-/// Of that word: interrupted 130, disagrees 1, undecided 3, else 0; 4 where every run of all solvers
-/// failed.
+/// Of that word: interrupted 130, disagrees 1, undecided 3, else 0; 4 where every run of
+/// a solver on a case failed.
 int exit_code(const Record& record);
 
 /// Who computes here and now: version, compiler, machine, processor, date. What the machine

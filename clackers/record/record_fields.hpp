@@ -187,6 +187,7 @@ void fields(auto& archive, Like<diagnose::LocatedImpact> auto& x) {
        "momentum_defect", x.momentum_defect, "delay", x.delay, "delay_steps", x.delay_steps,
        "duration", x.duration, "closed_speed", x.closed_speed, "defect", x.defect, "stale_share",
        x.stale_share);
+  archive.added("acting_gap", x.gap);
 }
 
 void fields(auto& archive, Like<diagnose::Departure> auto& x) {

@@ -14,6 +14,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/base/files/json.hpp"
+#include "clackers/base/text.hpp"
 #include "clackers/record/record_fields.hpp"
 
 namespace clackers::record {
@@ -275,7 +276,10 @@ Json parsed(const std::string& text, const std::atomic<bool>* interrupt) {
   } catch (const nlohmann::json::exception& error) {
     std::string_view reason = error.what();
     reason.remove_prefix(reason.find(']') + 1);  // "[json.exception.parse_error.101]"
-    throw InputError(fmt::format("record: no json:{}", reason), "not-a-record");
+    constexpr std::size_t most_shown = 160;      // the reason quotes what was read last
+    throw InputError(fmt::format("record: no json:{}{}", printable(reason.substr(0, most_shown)),
+                                 reason.size() > most_shown ? "..." : ""),
+                     "not-a-record");
   }
 }
 

@@ -198,6 +198,7 @@ TEST(RecordJson, RefusesWhatIsNoRecordAndSaysWhere) {
             "not-a-record: record: no field \"coarsest\" at /cases/0/plan" + hint);
   for (const auto* text : {"", "{", "null", "[]", "3", "{}", "clackers"})
     EXPECT_EQ(refusal_of(text).substr(0, 13), "not-a-record:") << text;
+  EXPECT_LT(refusal_of('"' + std::string(100000, 'a')).size(), 250u);
 }
 
 TEST(RecordJson, RefusesTextThatIsTooLongOrTooDeep) {

@@ -124,14 +124,18 @@ Record with_runs(SubjectKind kind, const std::vector<bool>& finished) {
   return whole;
 }
 
-TEST(FailureOfAll, IsTheFirstRunOfASolverWhereAllFailed) {
-  const auto failed = with_runs(SubjectKind::program, {false, false});
-  ASSERT_NE(failure_of_all(failed), nullptr);
-  EXPECT_EQ(failure_of_all(failed)->score.step, 1.0);
-  EXPECT_EQ(failure_of_all(with_runs(SubjectKind::program, {false, true})), nullptr);
-  EXPECT_EQ(failure_of_all(with_runs(SubjectKind::method, {false})), nullptr);
-  EXPECT_EQ(failure_of_all(Record{}), nullptr);
+TEST(FailedSolvers, AreThoseWithoutAFinishedRunWhateverOthersDo) {
+  auto failed = with_runs(SubjectKind::program, {false, false});
+  failed.cases[0].subjects.insert(failed.cases[0].subjects.begin(),
+                                  with_runs(SubjectKind::method, {true}).cases[0].subjects.front());
+  ASSERT_EQ(failed_solvers(failed).size(), 1u);
+  EXPECT_EQ(failed_solvers(failed)[0].subject, &failed.cases[0].subjects[1]);
+  EXPECT_EQ(failed_solvers(failed)[0].first->score.step, 1.0);
   EXPECT_EQ(exit_code(failed), 4);
+  EXPECT_TRUE(failed_solvers(with_runs(SubjectKind::program, {false, true})).empty());
+  EXPECT_TRUE(failed_solvers(with_runs(SubjectKind::method, {false})).empty());
+  EXPECT_TRUE(failed_solvers(with_runs(SubjectKind::program, {})).empty());
+  EXPECT_TRUE(failed_solvers(Record{}).empty());
 }
 
 }  // namespace

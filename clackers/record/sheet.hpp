@@ -77,10 +77,11 @@ class NumberRows : public RowSource {
 struct Axes {
   bool log_x = false, log_y = false;
   double highest = std::numeric_limits<double>::infinity();  ///< what is above is cut off
-  std::string y{};              ///< what several curves have in common, for their axis
-  std::vector<double> marks{};  ///< lines at these x
-  std::string mark_text{};      ///< what they are
-  std::string note{};           ///< what a reader must know of the curves
+  std::vector<std::string> x_names{};  ///< of x = 1, 2, ..., for the axis of a page
+  std::string y{};                     ///< what several curves have in common, for their axis
+  std::vector<double> marks{};         ///< lines at these x
+  std::string mark_text{};             ///< what they are
+  std::string note{};                  ///< what a reader must know of the curves
 };
 
 /// Rows held in memory.

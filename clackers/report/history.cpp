@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clackers/base/text.hpp"
 #include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
@@ -61,7 +62,8 @@ class Curves {
     sheet_.rows.back()[column] = value;
   }
   bool empty() const { return sheet_.rows.empty(); }
-  record::Sheet take(std::span<const double> marks) {
+  record::Sheet take(std::span<const double> marks, std::span<const std::string> names) {
+    sheet_.curves->x_names.assign(names.begin(), names.end());
     if (!marks.empty()) {
       sheet_.curves->marks.assign(marks.begin(), marks.end());
       sheet_.curves->mark_text = marks.size() == 1 ? "record in which something changed"
@@ -74,14 +76,48 @@ class Curves {
   record::Sheet sheet_;
 };
 
-const auto note = "Of the finest level; the numbers of records are those of the table.";
+const auto note = "Of the finest level.";
 
 record::Axes axes(std::string quantity, bool is_log) {
   return {.log_y = is_log, .y = std::move(quantity), .note = note};
 }
 
+// "rk4, newmark", four at most.
+std::string changed_names(const study::BaselineComparison& changes) {
+  constexpr std::size_t most = 4;
+  std::vector<std::string> names;
+  for (const auto& change : changes.subjects)
+    if (change.any() && std::ranges::find(names, change.name) == names.end())
+      names.push_back(printable(change.name));
+  const bool is_cut = names.size() > most;
+  if (is_cut) names.resize(most);
+  return fmt::format("{}{}", fmt::join(names, ", "), is_cut ? ", ..." : "");
+}
+
+// What changed last, and what the newest record says.
+std::string answer(std::span<const record::Record> records, std::span<const std::string> names,
+                   std::span<const study::BaselineComparison> changes) {
+  const auto newest = fmt::format("The newest, {}: {}.", printable(names.back()),
+                                  record::verdict_word(records.back()));
+  const auto any = [](const auto& comparison) { return comparison.any(); };
+  const auto count = std::ranges::count_if(changes, any);
+  if (count == 0)
+    return fmt::format("Nothing changed in {}. {}", counted(std::ssize(records), "record"), newest);
+  std::size_t last = changes.size() - 1;
+  while (!changes[last].any()) --last;
+  const auto& subjects = changes[last].subjects;
+  const auto more =
+      count == 1 ? std::string()
+                 : fmt::format(" Before that, {} brought changes.", counted(count - 1, "record"));
+  return fmt::format(
+      "From {} to {} {} of {} changed: {}.{} {}", printable(names[last]),
+      printable(names[last + 1]), std::ranges::count_if(subjects, &study::SubjectChange::any),
+      counted(std::ssize(subjects), "subject"), changed_names(changes[last]), more, newest);
+}
+
 class History {
  public:
+  explicit History(std::string answer) { versions_.title = std::move(answer); }
   void add(const std::string& name, const record::Record& record,
            const study::BaselineComparison* changes) {
     ++number_;
@@ -97,10 +133,10 @@ class History {
         table_.rows.push_back({number_, change.case_name, change.name, Cell(), Cell(), Cell(),
                                change_texts(change).front()});
   }
-  std::vector<record::Sheet> sheets() {
+  std::vector<record::Sheet> sheets(std::span<const std::string> names) {
     std::vector<record::Sheet> all{std::move(versions_), std::move(table_)};
     for (auto* curves : {&orders_, &errors_, &work_, &times_})
-      if (!curves->empty()) all.push_back(curves->take(marks_));
+      if (!curves->empty()) all.push_back(curves->take(marks_, names));
     return all;
   }
 
@@ -124,7 +160,7 @@ class History {
   long long number_ = 0;
   std::vector<double> marks_;
   record::Sheet versions_{"clackers/versions/1",
-                          "Records, oldest first",
+                          "",
                           {{"number", "", ""},
                            {"record", "", ""},
                            {"date", "", ""},
@@ -152,10 +188,10 @@ class History {
 std::vector<record::Sheet> history_sheets(std::span<const record::Record> records,
                                           std::span<const std::string> names,
                                           std::span<const study::BaselineComparison> changes) {
-  History history;
+  History history(answer(records, names, changes));
   for (std::size_t i = 0; i < records.size(); ++i)
     history.add(names[i], records[i], i > 0 ? &changes[i - 1] : nullptr);
-  return history.sheets();
+  return history.sheets(names);
 }
 
 }  // namespace clackers::report

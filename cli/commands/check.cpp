@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
+#include "clackers/base/files/input_file.hpp"
+#include "clackers/input/joined_table.hpp"
 #include "clackers/input/results/result_table.hpp"
 #include "clackers/report/write.hpp"
 #include "clackers/study/check/against.hpp"
@@ -54,6 +57,25 @@ input::ResultChoice results_of(const CheckOptions& options) {
   const auto nodes =
       options.nodes.empty() ? std::vector<std::string>{} : parts_of("--node", options.nodes);
   return input::result_choice(options.reader, nodes, options.component, "--component");
+}
+
+// Nodes and directions are those of result files; a pipe is read once, and so not looked into.
+void require_result_file(const CheckOptions& options) {
+  const bool by_node = !options.nodes.empty();
+  if (!by_node && options.component.empty()) return;
+  const auto choice = results_of(options);
+  const auto may_have_nodes = [&](const std::string& given) {
+    return std::ranges::any_of(input::joined_paths(given), [&](const std::string& path) {
+      if (!std::filesystem::is_regular_file(path)) return true;
+      InputFile file(path);
+      return input::result_reader_of(file, choice) != nullptr;
+    });
+  };
+  if (std::ranges::none_of(options.files, may_have_nodes) &&
+      std::ranges::none_of(options.against, may_have_nodes))
+    refuse("check", by_node ? "--node" : "--component", by_node ? options.nodes : options.component,
+           "beside a result file of another program",
+           "The columns of a table are named by its header or --columns.", "bad-syntax");
 }
 
 // Each name with the files behind it.
@@ -103,11 +125,15 @@ int run_against(const CheckOptions& options, const Command& command, const std::
            (!option.values().empty() || (option.name == "--impacts" && options.impacts));
   };
   const auto wrong = std::ranges::find_if(command.options, is_wrong);
-  if (wrong != command.options.end() || options.against.size() > 1)
-    refuse("check", "--against",
-           "beside " + (options.against.size() > 1 ? "a second one" : wrong->name),
-           fmt::format("once, beside {}", fmt::join(fitting.begin() + 1, fitting.end(), ", ")),
-           "There is no exact motion to judge by.", "bad-syntax");
+  if (options.against.size() > 1)
+    throw InputError("check: --against is given twice; allowed: once, between two sets of FILEs.",
+                     "bad-syntax");
+  if (wrong != command.options.end())
+    throw InputError(
+        fmt::format("check: {} is for an exact motion, and --against has none; leave one of them "
+                    "out. Options that --against takes: {}.",
+                    wrong->name, fmt::join(fitting.begin() + 1, fitting.end(), ", ")),
+        "bad-syntax");
   study::AgainstRequest request;
   const auto middle = options.files.begin() + std::ptrdiff_t(options.against_starts.front());
   request.sets[0].assign(options.files.begin(), middle);
@@ -129,7 +155,7 @@ int run_against(const CheckOptions& options, const Command& command, const std::
   if (page.wanted() && !page.write(report::html(found.sheets, "Two solvers, no exact motion",
                                                 record::provenance(line), nullptr, "check")))
     return 4;
-  return found.is_within ? 0 : 1;
+  return !found.is_within ? 3 : *found.is_within ? 0 : 1;
 }
 
 record::Record run_check(const CheckOptions& options, const study::CheckRequest& request) {
@@ -152,6 +178,7 @@ void take_case_first(CheckOptions& options) {
 
 int run(CheckOptions options, const Command& command, const std::string& line) {
   take_case_first(options);
+  require_result_file(options);
   if (!options.against.empty()) return run_against(options, command, line);
   const auto request = request_of(options, line);
   const auto requirements = read_requirements(options.requirements);
@@ -198,7 +225,7 @@ void add_check(Grammar& root) {
                 "  clackers check --name A FILE ... --name B FILE ... [...]\n"
                 "  clackers check FILE ... --against FILE ... [--tolerance x]\n"
                 "           [--columns t,u1,...] [--events FILE]\n"
-                "           [--reader NAME] [--node n1,n2,...] [--component 1|2|3]\n"
+                "           [--reader READER] [--node n1,n2,...] [--component 1|2|3]\n"
                 "           [--steps h1,h2,...|--tolerances a,b,...]\n"
                 "           [--expect BEHAVIOUR[:ORDER]] [--tolerance x] [--require WHAT]\n"
                 "           [--metrics all] [--impacts] [--report FILE.html]\n"
@@ -235,7 +262,7 @@ void add_check(Grammar& root) {
          "--reader", options->reader,
          "Forces the reader of result files, which otherwise are known by their first bytes: " +
              reader_names() + "; or table.")
-      ->option_text("NAME");
+      ->option_text("READER");
   app->add_option("--node", options->nodes,
                   "Nodes of a result file, one a mass. Default: all, in the order of the file.")
       ->option_text("n1,n2,...");

@@ -40,7 +40,7 @@ void open_in_browser(std::string file) {
 int run(const ExploreOptions& options, const std::string& line) {
   const auto dials = dials_of(cases::make(options.name, read_settings(options.settings)));
   const auto file = options.common.out.empty() ? default_file : options.common.out;
-  ReportPage page(file, options.common, OnInterrupt::stop);
+  ReportPage page(file, options.common, OnInterrupt::stop, "--out");
   if (!page.write(report::explore(dials, record::provenance(line)))) return 4;
   if (options.common.out.empty()) open_in_browser(file);
   return 0;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "clackers/report/write.hpp"
 #include "cli/command.hpp"
 #include "cli/files/output_folder.hpp"
+#include "cli/files/paths.hpp"
 #include "cli/files/results.hpp"
 #include "cli/messages.hpp"
 #include "cli/options.hpp"
@@ -57,11 +59,13 @@ decks::Subject subject_of(const ExportOptions& options, const std::string& line)
   return subject;
 }
 
-void write_file(const fs::path& path, const decks::DeckFile& file) {
+void write_file(const OutputFolder& folder, const decks::DeckFile& file) {
+  const auto path = fs::path(folder.folder()) / file.name;
+  errno = 0;
   std::ofstream stream(path, std::ios::binary);
   stream << file.text;
   if (!stream.flush())
-    throw FileError(fmt::format("cannot write {}.", path.string()), "cannot-write");
+    fail_to_write((fs::path(folder.path()) / file.name).string(), errno != 0 ? errno : EIO);
   if (file.is_program)
     fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                     fs::perm_options::add);
@@ -84,7 +88,7 @@ int run(const ExportOptions& options, const std::string& line) {
   const auto& format = decks::format_of(options.to);
   const auto files = decks::deck(format, subject_of(options, line));
   OutputFolder folder(options.common.out, decks::file_names());
-  for (const auto& file : files) write_file(folder.folder() / file.name, file);
+  for (const auto& file : files) write_file(folder, file);
   folder.commit();
   if (!options.common.quiet)
     note(fmt::format("Wrote {0}: a model for {1}. Run and judge it with: {0}/run", folder.path(),

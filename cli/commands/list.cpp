@@ -25,12 +25,10 @@ struct ListOptions {
 // Together these name everything; the other kinds repeat a part of it.
 constexpr auto shown_together = {"cases", "methods", "metrics"};
 
-// Columns and figures are in modules above the one that lists the rest.
 record::Sheet list(const std::string& kind) {
   if (kind == "columns") return report::list_columns();
   if (kind == "figures") return paper::list_figures();
-  auto kinds = tables::list_kinds();
-  kinds.insert(kinds.end(), {"columns", "figures"});
+  const auto kinds = listed_kinds();
   if (std::ranges::find(kinds, kind) == kinds.end())
     refuse_name("list", kind, kinds, fmt::format("{}", fmt::join(kinds, ", ")));
   return tables::list(kind);
@@ -76,6 +74,13 @@ int run(const ListOptions& options) {
 }
 
 }  // namespace
+
+// Columns and figures are in modules above the one that lists the rest.
+std::vector<std::string> listed_kinds() {
+  auto kinds = tables::list_kinds();
+  kinds.insert(kinds.end(), {"columns", "figures"});
+  return kinds;
+}
 
 void add_list(Grammar& root) {
   const auto options = std::make_shared<ListOptions>();

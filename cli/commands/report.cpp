@@ -24,7 +24,7 @@ int run(const ReportOptions& options, const std::string& line) {
     throw InputError(
         "report needs two records or more, oldest first: clackers report v1.json v2.json --out history.html",
         "bad-syntax");
-  ReportPage page(options.common.out, options.common, OnInterrupt::stop);
+  ReportPage page(options.common.out, options.common, OnInterrupt::stop, "--out");
   auto common = options.common;
   common.out.clear();  // the table goes to standard output
   Results results(common, OnInterrupt::stop);

@@ -15,7 +15,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/solvers/program.hpp"
 #include "clackers/study/options.hpp"
-#include "clackers/study/path.hpp"
+#include "clackers/study/path/path.hpp"
 #include "clackers/study/system_study.hpp"
 #include "clackers/tables/listing.hpp"
 #include "cli/command.hpp"
@@ -80,16 +80,18 @@ study::VerifyRequest request_of(const Options& options, const std::string& line)
 }
 
 // As typed, with a hyphen for the blank in the words of a record.
+const std::vector<std::string> verdict_names{"disagrees", "undecided", "agrees", "not-claimed",
+                                             "refused"};
+
 std::vector<std::string> verdicts_to_show(const Options& options) {
-  static const std::vector<std::string> known{"disagrees", "undecided", "agrees", "not-claimed",
-                                              "refused"};
   if (!options.only.empty() && options.common.format != "table")
     refuse_usage("--only: this is for tables; leave --only or --format " + options.common.format +
                  " out.");
   auto words = options.only;
   for (auto& word : words) {
-    if (std::ranges::find(known, word) == known.end())
-      refuse_name("verdict", word, known, fmt::format("{}", fmt::join(known, ", ")));
+    if (std::ranges::find(verdict_names, word) == verdict_names.end())
+      refuse_name("verdict", word, verdict_names,
+                  fmt::format("{}", fmt::join(verdict_names, ", ")));
     std::ranges::replace(word, '-', ' ');
   }
   return words;
@@ -208,7 +210,7 @@ int run(Options options, const std::string& line) {
   }
   output.note_changes(results.format());
   if (record.interrupted) report_error("interrupted; the finished rows were kept.", "interrupted");
-  report_failure_of_all(record);
+  report_failed_solvers(record);
   const int code = required_exit_code(record, requirements);
   return written ? code : 4;
 }
@@ -283,9 +285,9 @@ void add_verify(Grammar& root) {
   add_require_option(*app, options->requirements);
   app->add_option(
          "--only", options->only,
-         "Show only methods with this verdict: disagrees, undecided, agrees, not-claimed or "
-         "refused. May be repeated. All are run; reports and other formats have all.")
-      ->option_text("VERDICT");
+         "Show only methods with this verdict. May be repeated. All are run; reports and other "
+         "formats have all.")
+      ->option_text(fmt::format("{}", fmt::join(verdict_names, "|")));
   add_report_option(*app, options->report);
   add_film_option(*app, options->film);
   app->add_option(

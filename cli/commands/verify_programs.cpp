@@ -119,16 +119,18 @@ std::vector<solvers::SolverSubject> program_subjects(const ProgramOptions& optio
   return solvers::subjects_of(request);
 }
 
-void report_failure_of_all(const record::Record& record) {
-  const auto* failure = record::failure_of_all(record);
-  if (failure == nullptr || record.interrupted) return;
-  const auto printed = report::printed_text(failure->printed);
-  auto sentence =
-      fmt::format("every run failed; the first one, with step [s] or tolerance {:g}: {}",
-                  failure->score.step, failure->score.failure);
-  if (!sentence.ends_with('.')) sentence += '.';
-  report_error(sentence + (printed.empty() ? "" : " It printed: " + printed),
-               failure->score.failure_code);
+void report_failed_solvers(const record::Record& record) {
+  if (record.interrupted) return;
+  for (const auto& [problem, subject, first] : record::failed_solvers(record)) {
+    const auto printed = report::printed_text(first->printed);
+    const auto& score = first->score;
+    auto sentence =
+        fmt::format("{}{}: every run failed; the first one, at {}: {}", subject->name,
+                    record.cases.size() > 1 ? " on " + problem->problem.name : std::string(),
+                    report::resolution_text(*subject, score.step), score.failure);
+    if (!sentence.ends_with('.')) sentence += '.';
+    report_error(sentence + (printed.empty() ? "" : " It printed: " + printed), score.failure_code);
+  }
 }
 
 }  // namespace clackers::cli

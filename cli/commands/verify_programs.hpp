@@ -24,7 +24,7 @@ void add_program_options(Command& command, ProgramOptions& options);
 /// any, and what subjects_of() throws.
 std::vector<solvers::SolverSubject> program_subjects(const ProgramOptions& options);
 
-/// Says why, where every run of all programs failed.
-void report_failure_of_all(const record::Record& record);
+/// Names the programs of which every run failed, and why.
+void report_failed_solvers(const record::Record& record);
 
 }  // namespace clackers::cli

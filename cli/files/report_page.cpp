@@ -10,13 +10,14 @@
 namespace clackers::cli {
 
 ReportPage::ReportPage(const std::string& path, const CommonOptions& common,
-                       OnInterrupt on_interrupt)
+                       OnInterrupt on_interrupt, std::string_view option)
     : quiet_(common.quiet) {
   const auto ending = std::filesystem::path(path).extension();
   if (!ending.empty() && ending != ".html" && ending != ".htm")
-    refuse("clackers", "--report", path, "a page: FILE.html",
-           "Its figures are saved as SVG or PNG by their buttons, and a browser prints it to PDF; "
-           "tables: --format with --out.",
+    refuse("clackers", option, path, "a page: FILE.html",
+           fmt::format("Its figures are saved as SVG or PNG by their buttons, and a browser prints "
+                       "it to PDF{}.",
+                       option == "--report" ? "; tables: --format with --out" : ""),
            "bad-syntax");
   if (!path.empty()) file_ = std::make_unique<OutputFile>(path, on_interrupt);
 }

@@ -6,6 +6,8 @@
 #include <variant>
 
 #include "clackers/cases/case.hpp"
+#include "clackers/decks/deck.hpp"
+#include "clackers/input/results/result_table.hpp"
 #include "clackers/tables/listing.hpp"
 #include "paper/catalogue.hpp"
 
@@ -53,16 +55,22 @@ void add_values(std::string_view placeholder, bool is_choice, const Grammar& gra
     to.add_column(tables::list("integrators"));
     to.add_column(tables::list("pairs"));
   } else if (placeholder == "KIND") {
-    for (const auto& kind : tables::list_kinds()) to.add(kind);
-    to.add("figures");
+    for (const auto& kind : listed_kinds()) to.add(kind);
   } else if (placeholder == "COMMAND") {
     for (const auto& command : grammar.commands) to.add(command.name, command.summary);
   } else if (placeholder == "CODE") {
     to.add_column(tables::explain(""));
   } else if (placeholder == "FIGURE") {
     to.add_column(paper::list_figures());
-  } else if (placeholder.starts_with("BEHAVIOUR")) {
+  } else if (placeholder == "FORMAT") {
+    for (const auto& format : decks::formats()) to.add(format.name, format.program);
+  } else if (placeholder == "READER") {
+    for (const auto& reader : input::result_readers()) to.add(reader.name);
+    to.add("table");
+  } else if (placeholder == "BEHAVIOUR" || placeholder == "WHAT") {
     to.add_column(tables::explain(""), "behaviour");
+    if (placeholder == "WHAT")
+      for (const auto* word : {"agrees", "order:", "error:"}) to.add(word);
   } else if (placeholder.starts_with("FILE") || placeholder == "FOLDER") {
     to.add_files();
   } else if (is_choice) {
@@ -73,8 +81,9 @@ void add_values(std::string_view placeholder, bool is_choice, const Grammar& gra
 void add_values(const Option& option, const std::vector<std::string>& words, const Grammar& grammar,
                 Candidates& to) {
   if (option.placeholder.starts_with("name=")) return add_parameters(words, to);
-  std::istringstream parts(option.placeholder.empty() ? option.name : option.placeholder);
-  const bool is_choice = option.placeholder.find('|') != std::string::npos;
+  const auto& shown = option.placeholder.empty() ? option.name : option.placeholder;
+  std::istringstream parts(shown.substr(0, shown.find('[')));  // without what may follow a value
+  const bool is_choice = parts.str().find('|') != std::string::npos;
   for (std::string part; std::getline(parts, part, '|');) add_values(part, is_choice, grammar, to);
 }
 

@@ -248,6 +248,10 @@ class Hostile(Campaign):
         for statement in ("SELECT 1 AS x; -- a comment", "-- x = 1\nSELECT 1 AS x"):
             self.assertEqual(self.rows_of("campaign", "query", self.database, statement), [{"x": "1"}])
 
+    def test_the_page_of_a_campaign_ends_in_html(self):
+        self.run_spec()
+        self.refused("campaign", "report", self.database, "--out", self.path("x.pdf"), code="bad-syntax", says=("--out = ", "FILE.html"))
+
     def test_values_of_other_types_are_no_mistake_of_ours(self):
         self.run_spec()
         databases.change(self.database, "UPDATE subjects SET verdict = NULL WHERE task = 1",

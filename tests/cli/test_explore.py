@@ -33,6 +33,7 @@ class Explore(CommandTest):
         self.refused("explore", "synchronized-pair", "--set", "m1=2", says="m1 = 2", code="out-of-range")
         self.refused("explore", "synchronized-pair", "--set", "eta=0", says="eta above 0", code="out-of-range")
         self.refused("explore", "synchronized-pair", "--set", "r=5", says="r", code="not-admissible")
+        self.refused("explore", "--out", self.path("page.pdf"), says=("--out = ", "FILE.html"), code="bad-syntax")
         self.refused("explore", "--out", "/proc/page.html", says="/proc/page.html", code="cannot-write", exit_code=4)
 
 

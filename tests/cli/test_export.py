@@ -7,7 +7,7 @@ import subprocess
 import unittest
 from xml.etree import ElementTree
 
-from command import CommandTest, rows
+from command import PROGRAM, CommandTest, rows
 
 
 class Export(CommandTest):
@@ -114,6 +114,10 @@ class Export(CommandTest):
 
     def test_refusals(self):
         out = ("--out", self.path("out"))
+        full = subprocess.run(["sh", "-c", 'trap "" XFSZ; ulimit -f 0; exec "$0" "$@"', PROGRAM, "export", "stop", "--to", "scipy",
+                               "--out", self.path("full")], capture_output=True, text=True)
+        self.assertEqual(full.returncode, 4)
+        self.assertRegex(full.stderr, r"cannot write .*/full/[^/]*: File too large")
         self.refused("export", "stop", "--to", "scypi", *out, says='"scipy"', code="unknown-name")
         self.refused("export", "stop", *out, says="--to", code="bad-syntax")
         self.refused("export", "assembly", "--to", "mujoco", *out, says="mass matrix", code="no-deck")

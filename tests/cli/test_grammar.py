@@ -109,6 +109,17 @@ class Names(CommandTest):
             self.refused(*command, "--report", self.path("x.pdf"), code="bad-syntax", says=("x.pdf", "FILE.html", "PDF", "SVG"))
         self.assertEqual(self.files(), [])
 
+    def test_of_values_are_completed(self):
+        for words, offered in ((("export", "--to", "sc"), ["scipy"]), (("list", "co"), ["contacts", "columns"]),
+                               (("check", "--reader", "ta"), ["table"]), (("verify", "--only", "not"), ["not-claimed"]),
+                               (("verify", "--require", "or"), ["order:"]), (("verify", "--expect", "st"), ["stagnating"]),
+                               (("verify", "--expect", "RE"), [])):
+            self.assertEqual([line.split("\t")[0] for line in self.good("--complete", *words).splitlines()], offered, words)
+
+    def test_of_whole_numbers_have_their_range(self):
+        for value in ("abc", "2.5", "0", "99"):
+            self.refused("verify", "--levels", value, code=("not-a-number" if value == "abc" else "out-of-range"), says="a whole number, 1 to 64")
+
     def test_of_formats_get_did_you_mean(self):
         for command in (("list",), ("show", "stop"), ("respond", "stop", "--samples", "3"),
                         ("verify",), ("explain",)):

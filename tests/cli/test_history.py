@@ -36,7 +36,13 @@ class History(CommandTest):
         page = self.text_of("h.html")
         specifications = json.loads(page.split('id="specifications">')[1].split("</script>")[0])
         self.assertEqual(set(specifications), {"order", "error", "evaluations", "seconds"})
+        self.assertIn("From v2 to v3 1 of 2 subjects changed: rk4. The newest, v3: agrees.", page)
+        self.assertTrue(specifications["error"]["encoding"]["x"]["axis"]["labelExpr"].startswith('["v1","v2","v3"]'))
         self.assertEqual([mark["x"] for mark in specifications["error"]["layer"][0]["data"]["values"]], [3])
+
+    def test_without_a_change_it_is_said_first(self):
+        same = self.version("v2.json", lambda _: None)
+        self.assertTrue(run("report", self.path("v1.json"), same).stdout.startswith("Nothing changed in 2 records. The newest, v2: agrees."))
 
     def test_the_exit_code_is_that_of_the_newest(self):
         def disagree(subjects):

@@ -14,7 +14,7 @@ SCHEMA = os.path.join(os.path.dirname(__file__), "../../docs/schemas/record-1.js
 OTHERS = (None, True, 7, 0.5, "text", [], {})
 
 # Fields that records of earlier versions lack.
-ADDED = {"labels", "integrator", "treatment", "cancel_step", "contact_forces", "departure", "diagnoses", "drawing", "floor_scatter", "floor_step",
+ADDED = {"acting_gap", "labels", "integrator", "treatment", "cancel_step", "contact_forces", "departure", "diagnoses", "drawing", "floor_scatter", "floor_step",
          "impact_contacts", "impact_table", "largest_step", "lengths", "lucky_share", "mismatch", "motion", "plane", "printed",
          "refinement", "resolution", "smallest_step", "stable_step", "string", "text", "velocity_order"}
 

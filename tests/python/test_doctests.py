@@ -73,6 +73,16 @@ class Docstrings(unittest.TestCase):
                 self.assertIn(">>> ", "".join(parts["Examples"]))
                 self.assertLessEqual(set(parts), {"Returns", "Raises", "Examples"})
 
+    def test_the_docstring_of_a_class_of_fields_has_them(self):
+        for name in clackers.__all__:
+            value = getattr(clackers, name)
+            names = getattr(value, "_fields", getattr(value, "__dataclass_fields__", ()))
+            if not inspect.isclass(value) or not names:
+                continue
+            with self.subTest(name):
+                parts = sections(value.__doc__)
+                self.assertEqual(parameters(parts.get("Attributes") or parts["Parameters"]), [each for each in names if not each.startswith("_")])
+
     def test_every_public_name_has_a_docstring(self):
         for name in clackers.__all__:
             value = getattr(clackers, name)

@@ -271,6 +271,12 @@ class Refusals(Plots):
         with self.assertRaises(clackers.InputError):
             clackers.plot.response(CASE, [0.0, 21.0])
 
+    def test_a_case_is_taken_by_its_name_and_nothing_else_is(self):
+        for draw in (clackers.plot.response, clackers.plot.energies, clackers.plot.spectrum):
+            self.assertGreater(len(draw("stop").lines), 0)
+            with self.assertRaisesRegex(clackers.InputError, "a clackers.Case, or the name of one"):
+                draw(RECORD)
+
     def test_without_matplotlib_the_package_to_install_is_named(self):
         plain = builtins.__import__
 

@@ -208,6 +208,15 @@ class Files(unittest.TestCase):
                 clackers.Record.from_json(text)
             self.assertEqual(caught.exception.code, "not-a-record")
 
+    def test_a_file_that_is_no_record_is_named_and_not_quoted_whole(self):
+        path = self.folder / "other.json"
+        for content in (bytes(range(256)) * 1000, b'"' + 100000 * b"a", b"{}"):
+            path.write_bytes(content)
+            with self.assertRaisesRegex(clackers.InputError, "other.json") as caught:
+                clackers.load(path)
+            self.assertEqual(caught.exception.code, "not-a-record")
+            self.assertLess(len(str(caught.exception)), 500)
+
     def test_the_command_compares_with_it(self):
         command = os.environ.get("CLACKERS")
         if not command:

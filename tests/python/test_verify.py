@@ -350,6 +350,13 @@ class Failures(unittest.TestCase):
             clackers.verify(raising(error), **FAST)
         self.assertIs(caught.exception.__cause__, error)
 
+    def test_one_solver_that_never_finishes_is_named_beside_others(self):
+        error = ValueError("no solution")
+        with self.assertRaisesRegex(clackers.SolverError, "^verify: broken: every run failed.*no solution") as caught:
+            clackers.verify("rk4", leapfrog, raising(error), name=["good", "broken"], **FAST)
+        self.assertIs(caught.exception.__cause__, error)
+        self.assertEqual([each.name for each in caught.exception.record.subjects], ["rk4", "good", "broken"])
+
     def test_the_end_of_the_traceback_stands_in_the_record(self):
         with self.assertRaises(clackers.SolverError) as caught:
             clackers.verify(raising(ValueError("no solution")), **FAST)

@@ -25,14 +25,20 @@ class Kinematics(NamedTuple):
     """Displacements, velocities and accelerations, or bounds or amplitudes of them.
 
     The shape is (time, dof), or (dof,) for a single time.
+
+    Attributes
+    ----------
+    u : ndarray
+        Displacements [m].
+    v : ndarray
+        Velocities [m/s].
+    a : ndarray
+        Accelerations [m/s^2].
     """
 
     u: Array
-    """[m]"""
     v: Array
-    """[m/s]"""
     a: Array
-    """[m/s^2]"""
 
 
 Buffers = tuple[Array, Array, Array | None]
@@ -40,34 +46,51 @@ Buffers = tuple[Array, Array, Array | None]
 
 @dataclass(frozen=True)
 class Impacts:
-    """Impacts of a motion, a row each: arrays of shape (impact,) and (impact, dof)."""
+    """Impacts of a motion, a row each: arrays of shape (impact,) and (impact, dof).
+
+    Attributes
+    ----------
+    index : ndarray of int
+        1 for the first.
+    t : ndarray
+        The double nearest to the true instant [s].
+    t_lo : ndarray
+        Start of the interval that certainly holds the true instant [s].
+    t_hi : ndarray
+        End of that interval [s].
+    contact : ndarray of int
+        Number in ``Problem.contacts``, from 0.
+    u : ndarray
+        Displacements [m], shape (impact, dof).
+    v_before : ndarray
+        Velocities just before [m/s], shape (impact, dof).
+    v_after : ndarray
+        Velocities just after [m/s], shape (impact, dof).
+    a_before : ndarray
+        Accelerations just before [m/s^2], shape (impact, dof).
+    a_after : ndarray
+        Accelerations just after [m/s^2], shape (impact, dof).
+    impulse : ndarray
+        Along the direction of the contact [N s].
+    energy_before : ndarray
+        Of the whole structure [J].
+    energy_after : ndarray
+        Of the whole structure [J].
+    """
 
     index: npt.NDArray[np.int64]
-    """1 for the first."""
     t: Array
-    """The double nearest to the true instant [s]."""
     t_lo: Array
-    """Start of the interval that certainly holds the true instant [s]."""
     t_hi: Array
-    """End of that interval [s]."""
     contact: npt.NDArray[np.int64]
-    """Number in ``Problem.contacts``, from 0."""
     u: Array
-    """Displacements [m], shape (impact, dof)."""
     v_before: Array
-    """Velocities just before [m/s], shape (impact, dof)."""
     v_after: Array
-    """Velocities just after [m/s], shape (impact, dof)."""
     a_before: Array
-    """Accelerations just before [m/s^2], shape (impact, dof)."""
     a_after: Array
-    """Accelerations just after [m/s^2], shape (impact, dof)."""
     impulse: Array
-    """Along the direction of the contact [N s]."""
     energy_before: Array
-    """Of the whole structure [J]."""
     energy_after: Array
-    """Of the whole structure [J]."""
 
     def __len__(self) -> int:
         return len(self.index)
@@ -284,7 +307,7 @@ class Case:
         Parameters
         ----------
         first : int
-            Number of the first.
+            Number of the first; the one behind the last impact gives none.
         last : int, optional
             Number of the last; default all that follow, at most a million.
 
@@ -295,7 +318,7 @@ class Case:
         Raises
         ------
         InputError
-            Beyond the last impact.
+            For a ``last`` beyond the last impact, or a ``first`` beyond the one behind it.
 
         Examples
         --------
@@ -552,12 +575,18 @@ class Case:
 
 
 class Admissibility(NamedTuple):
-    """How far the masses of a pair stay apart away from equilibrium."""
+    """How far the masses of a pair stay apart away from equilibrium.
+
+    Attributes
+    ----------
+    r_star : float
+        Limit of slow over fast mass; infinity for equal frequencies.
+    margin : float
+        Smallest gap between impacts relative to the slow displacement; the closed form holds where it is positive.
+    """
 
     r_star: float
-    """Limit of slow over fast mass; infinity for equal frequencies."""
     margin: float
-    """Smallest gap between impacts relative to the slow displacement; the closed form holds where it is positive."""
 
 
 def admissibility(X: float, r: float) -> Admissibility:

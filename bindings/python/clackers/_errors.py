@@ -40,10 +40,10 @@ class FileError(Error, OSError):
 
 
 class SolverError(Error, ValueError):
-    """Every run of every solver failed. The first exception that a solver raised is its ``__cause__``."""
+    """Every run of a solver failed. The first exception that it raised is the ``__cause__``."""
 
     record: Record
-    """The failed runs."""
+    """Of all subjects."""
 
     def __init__(self, message: str, code: str, record: Record) -> None:
         super().__init__(message, code)

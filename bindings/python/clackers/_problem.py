@@ -12,29 +12,53 @@ Array = npt.NDArray[np.float64]
 
 
 class Contact(NamedTuple):
-    """A row of the contact condition g = direction . u - gap >= 0, with Newton's law of restitution."""
+    """A row of the contact condition g = direction . u - gap >= 0, with Newton's law of restitution.
+
+    Attributes
+    ----------
+    direction : ndarray
+        b, shape (dof,), dimensionless; (1, -1) keeps mass 1 above mass 2.
+    gap : float
+        [m]; contact happens at b . u = gap.
+    restitution : float
+        eta in [0, 1]; 1 is elastic. At an impact b . v(+) = -eta b . v(-).
+    """
 
     direction: Array
-    """b, shape (dof,), dimensionless; (1, -1) keeps mass 1 above mass 2."""
     gap: float
-    """[m]; contact happens at b . u = gap."""
     restitution: float
-    """eta in [0, 1]; 1 is elastic. At an impact b . v(+) = -eta b . v(-)."""
 
 
 class Spring(NamedTuple):
-    """A contact with a stiffness: the force ``stiffness * max(gap - direction . u, 0)`` along the direction, on u."""
+    """A contact with a stiffness: the force ``stiffness * max(gap - direction . u, 0)`` along the direction, on u.
+
+    Attributes
+    ----------
+    direction : ndarray
+        b, shape (dof,), dimensionless.
+    gap : float
+        [m]; it is in contact where b . u < gap.
+    stiffness : float
+        Force over overlap [N/m].
+    """
 
     direction: Array
-    """b, shape (dof,), dimensionless."""
     gap: float
-    """[m]; it is in contact where b . u < gap."""
     stiffness: float
-    """[N/m]"""
 
 
 class State(NamedTuple):
-    """Displacements u [m] and velocities v [m/s] of all masses at time t [s]."""
+    """Displacements u [m] and velocities v [m/s] of all masses at time t [s].
+
+    Attributes
+    ----------
+    t : float
+        Time [s].
+    u : ndarray
+        Displacements [m], shape (dof,).
+    v : ndarray
+        Velocities [m/s], shape (dof,).
+    """
 
     t: float
     u: Array

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from clackers import _core
+from clackers._errors import InputError
 from clackers._table import Table
 from clackers._words import html_in_python, in_python
 
@@ -22,20 +23,30 @@ _FORMATS = {".json": "json", ".csv": "csv", ".xml": "junit", ".tex": "latex", ".
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """A cause of what the runs show."""
+    """A cause of what the runs show.
+
+    Attributes
+    ----------
+    code : str
+        The name in ``clackers.catalogue("diagnoses")``, for example ``restitution-differs``.
+    value : float
+        The parameter of the cause, in ``unit``; NaN where the cause has none.
+    unit : str
+        Empty when dimensionless.
+    confidence : float
+        From 0 to 1.
+    evidence : dict of float
+        The numbers that it rests on, by name: gain, uncertainty, expected, ...
+    text : str
+        The same in a sentence, with what to check.
+    """
 
     code: str
-    """The name in ``clackers.catalogue("diagnoses")``, for example ``restitution-differs``."""
     value: float
-    """The parameter of the cause, in ``unit``; NaN where the cause has none."""
     unit: str
-    """Empty when dimensionless."""
     confidence: float
-    """From 0 to 1."""
     evidence: dict[str, float]
-    """The numbers that it rests on, by name: gain, uncertainty, expected, ..."""
     text: str
-    """The same in a sentence, with what to check."""
 
     @property
     def gain(self) -> float | None:
@@ -48,29 +59,45 @@ class Diagnosis:
 
 @dataclass(frozen=True)
 class Subject:
-    """What was assessed on one case: a method, a callable, a program, or a set of histories."""
+    """What was assessed on one case: a method, a callable, a program, or a set of histories.
+
+    Attributes
+    ----------
+    name : str
+        As in every table.
+    kind : str
+        ``method``, ``callable``, ``program`` or ``histories``.
+    case : str
+        The name of the case.
+    verdict : str
+        ``agrees``, ``disagrees``, ``not claimed``, ``undecided``, ``refused`` or ``interrupted``.
+    behaviour : str
+        ``exact``, ``proper``, ``reduced``, ``irregular``, ``stagnating``, ``divergent`` or ``undecided``.
+    order : float or None
+        The measured order of the error in u, None where the errors lie on no line.
+    uncertainty : float or None
+        Half width of the 95 % interval of ``order``.
+    claim : str or None
+        What is claimed or expected, None for nothing.
+    reason : str
+        The code of what decided, empty where none is needed.
+    findings : tuple of str
+        Sentences: causes, the finding, failures of runs, and notes on the histories.
+    diagnoses : tuple of Diagnosis
+        Causes, strongest first.
+    """
 
     name: str
     kind: str
-    """``method``, ``callable``, ``program`` or ``histories``."""
     case: str
-    """The name of the case."""
     verdict: str
-    """``agrees``, ``disagrees``, ``not claimed``, ``undecided``, ``refused`` or ``interrupted``."""
     behaviour: str
-    """``exact``, ``proper``, ``reduced``, ``irregular``, ``stagnating``, ``divergent`` or ``undecided``."""
     order: float | None
-    """The measured order of the error in u, None where the errors lie on no line."""
     uncertainty: float | None
-    """Half width of the 95 % interval of ``order``."""
     claim: str | None
-    """What is claimed or expected, None for nothing."""
     reason: str
-    """The code of what decided, empty where none is needed."""
     findings: tuple[str, ...]
-    """Sentences: causes, the finding, failures of runs, and notes on the histories."""
     diagnoses: tuple[Diagnosis, ...]
-    """Causes, strongest first."""
     _core: _core.Record = field(repr=False, compare=False)
     _place: tuple[int, int] = field(repr=False, compare=False)
 
@@ -482,7 +509,11 @@ def load(path: str | os.PathLike[str]) -> Record:
     not-a-record
     """
     with open(path, "rb") as file:
-        return Record.from_json(file.read().decode("utf-8", errors="replace"))
+        text = file.read().decode("utf-8", errors="replace")
+    try:
+        return Record(_core.Record.from_json(text))
+    except InputError as error:
+        raise InputError(f"{os.fsdecode(path)}: {error}", error.code) from None
 
 
 def _subject(core: _core.Record, row: dict[str, Any]) -> Subject:

@@ -93,7 +93,7 @@ def verify(
     InputError
         For what cannot be run.
     SolverError
-        Where every run failed, from the first exception.
+        Where every run of a solver failed, from its first exception; ``record`` has what the others did.
     Interrupted
         After Ctrl-C, a KeyboardInterrupt with the record of what was finished.
 
@@ -151,14 +151,15 @@ def verify(
             progress=report,
         )
     record = _record(core, stop)
-    failure = record._core.failure_of_all()
+    failure = record._core.failed_solver()
     if failure is not None:
-        sentence, code, printed = failure
+        solver_name, sentence, code, printed = failure
         end = "" if sentence.endswith(".") else "."
-        first = next((each.first_error for each in runs if isinstance(each, Runs) and each.first_error is not None), None)
+        failed = (each for each in runs if isinstance(each, Runs) and each.name == solver_name)
+        first = next((each.first_error for each in failed if each.first_error is not None), None)
         if printed and first is None:
             end += f" It printed: {printed}"
-        raise SolverError(f"verify: every run failed; the first one: {sentence}{end}", code, record) from first
+        raise SolverError(f"verify: {solver_name}: every run failed; the first one: {sentence}{end}", code, record) from first
     return record
 
 
@@ -303,14 +304,21 @@ def check(
 
 @dataclass(frozen=True)
 class Comparison:
-    """Differences between two sets of histories of one motion, which ``clackers.compare`` found."""
+    """Differences between two sets of histories of one motion, which ``clackers.compare`` found.
+
+    Attributes
+    ----------
+    differences : Table
+        Of each mass: the largest, its time, and the first time of one above 1e-3 of the largest displacement.
+    sets : Table
+        Of each set by itself: the order with which the differences between its histories fall.
+    is_within : bool or None
+        Whether all are within ``tolerance``; True without one, None where only a part could be compared and is.
+    """
 
     differences: Table
-    """Of each mass: the largest, its time, and the first time of one above 1e-3 of the largest displacement."""
     sets: Table
-    """Of each set by itself: the order with which the differences between its histories fall."""
-    is_within: bool
-    """Whether all are within ``tolerance``; True without one."""
+    is_within: bool | None
 
     def __str__(self) -> str:
         return f"{self.differences}\n\n{self.sets}"

@@ -20,7 +20,17 @@ Cell = str | float | int | None
 
 
 class Column(NamedTuple):
-    """A column of a table: its name, its unit (empty when dimensionless or text) and its meaning."""
+    """A column of a table: its name, its unit (empty when dimensionless or text) and its meaning.
+
+    Attributes
+    ----------
+    name : str
+        ``t``, ``u1``, ...
+    unit : str
+        Empty when dimensionless or text.
+    meaning : str
+        In words.
+    """
 
     name: str
     unit: str

@@ -21,6 +21,7 @@ import numpy.typing as npt
 
 from clackers import _core
 from clackers._case import Case
+from clackers._case import case as make_case
 from clackers._record import Record
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ _MARKERS = ("o", "s", "D", "^", "v", "P", "X", "<", ">")
 
 
 def response(
-    case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = None, width: float = COLUMN
+    case: Case | str, t: npt.ArrayLike | None = None, *, ax: Axes | None = None, width: float = COLUMN
 ) -> Axes:
     """The exact displacements of the masses against time; thin lines mark the impacts.
 
@@ -66,7 +67,8 @@ def response(
 
     Parameters
     ----------
-    case : Case
+    case : Case or str
+        A case, or the name of one with its default parameters.
     t : array_like, optional
         Times [s]; default 2001 over the run and those of the impacts.
     ax : Axes, optional
@@ -90,6 +92,7 @@ def response(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('time $t$ [s]', 'displacement [m]')
     """
+    case = _case("response", case)
     times, hits = _times(case, t)
     u = case.response(times).u
     with _axes(ax, width) as axes:
@@ -102,7 +105,7 @@ def response(
     return axes
 
 
-def energies(case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = None, width: float = COLUMN) -> Axes:
+def energies(case: Case | str, t: npt.ArrayLike | None = None, *, ax: Axes | None = None, width: float = COLUMN) -> Axes:
     """Where the energy is against time: kinetic, potential, dissipated, lost in impacts, work and total, as far as
     ``Case.energies`` has them.
 
@@ -110,7 +113,8 @@ def energies(case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = No
 
     Parameters
     ----------
-    case : Case
+    case : Case or str
+        A case, or the name of one with its default parameters.
     t : array_like, optional
         Times [s]; default 2001 over the run and those of the impacts.
     ax : Axes, optional
@@ -134,6 +138,7 @@ def energies(case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = No
     >>> [line.get_label() for line in axes.lines]
     ['kinetic', 'potential', 'dissipated', 'lost', 'total']
     """
+    case = _case("energies", case)
     times, hits = _times(case, t)
     table = case.energies(times)
     with _axes(ax, width) as axes:
@@ -148,7 +153,7 @@ def energies(case: Case, t: npt.ArrayLike | None = None, *, ax: Axes | None = No
 
 
 def spectrum(
-    case: Case, highest: float = 30.0, n: int = 1001, *, ax: Axes | None = None, width: float = COLUMN
+    case: Case | str, highest: float = 30.0, n: int = 1001, *, ax: Axes | None = None, width: float = COLUMN
 ) -> Axes:
     """The modulus of the Fourier transform of the displacements over the run at frequencies up to ``highest``.
 
@@ -156,7 +161,8 @@ def spectrum(
 
     Parameters
     ----------
-    case : Case
+    case : Case or str
+        A case, or the name of one with its default parameters.
     highest : float
         [rad/s]
     n : int
@@ -182,6 +188,7 @@ def spectrum(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('frequency $\\\\omega$ [rad/s]', 'modulus of the spectrum [m s]')
     """
+    case = _case("spectrum", case)
     table = case.spectrum(n, highest)
     with _axes(ax, width) as axes:
         for mass in range(case.dof):
@@ -377,6 +384,14 @@ def _indexed(symbol: str, mass: int, dof: int) -> str:
 
 
 # Data of a case.
+
+
+def _case(figure: str, case: Case | str) -> Case:
+    if isinstance(case, str):
+        return make_case(case)
+    if not isinstance(case, Case):
+        _core.refuse(f"plot.{figure}", "case", _core.description(case), "a clackers.Case, or the name of one")
+    return case
 
 
 def _times(case: Case, t: npt.ArrayLike | None) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:

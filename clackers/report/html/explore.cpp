@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include "clackers/report/html/figures.hpp"
 #include "clackers/report/html/page.hpp"
+#include "clackers/report/html/plot_style.hpp"
 #include "clackers/report/markup.hpp"
 #include "clackers/report/write.hpp"
 
@@ -7,6 +10,11 @@ namespace clackers::report {
 
 void add_dials(Page& page, const Dials& dials, int& number) {
   const auto figure = [&](const FigureText& text) { return figure_html(number, {}, text); };
+  std::string masses = "<p class=\"legend reading\">";
+  for (std::size_t mass = 0; mass < 2; ++mass)
+    masses += fmt::format("<span class=\"named\">{}mass {}</span>",
+                          key_svg(MassStyle{mass_style(mass).color, {}}), mass + 1);
+  masses += "</p>\n";
   const auto animation =
       fill(assets::player_html,
            {{"name", "motion"},
@@ -27,7 +35,8 @@ void add_dials(Page& page, const Dials& dials, int& number) {
                    .caption = "Displacements of both masses in metres against time in seconds.",
                    .reading = "Whole lines are the exact motion, broken lines the runs; the masses "
                               "touch at the thin vertical lines. Drag to move, pinch or hold Ctrl "
-                              "and turn the wheel to zoom."})});
+                              "and turn the wheel to zoom.",
+                   .choices = masses})});
   page.sections.push_back(
       {"orders", "Orders", "Why order is lost",
        figure({.name = "convergence",
@@ -44,13 +53,17 @@ void add_dials(Page& page, const Dials& dials, int& number) {
               .rows = "curves",
               .title = "Phase portrait",
               .caption = "Velocity against displacement of each mass, a line a flight.",
-              .reading = "An impact is a jump of both velocities at u = 0."});
-  const auto energy =
-      figure({.name = "energy",
-              .rows = "curves",
-              .title = "Energies",
-              .caption = "Kinetic and potential energy of each mass, exact and of the runs.",
-              .reading = "Elastic impacts pass energy between the masses; damping takes it away."});
+              .reading = "An impact is a jump of both velocities at u = 0.",
+              .choices = masses});
+  const auto energy = figure(
+      {.name = "energy",
+       .rows = "curves",
+       .title = "Energies",
+       .caption = "Kinetic and potential energy of each mass, exact and of the runs.",
+       .reading = "Whole lines are the exact motion, broken lines the runs in the colours of "
+                  "their list. Elastic impacts pass energy between the masses; damping "
+                  "takes it away.",
+       .choices = masses});
   page.sections.push_back({"phase-section", "Phase", "Phase and energy",
                            "<div class=\"pair\">\n" + phase + energy + "</div>\n"});
   page.sections.push_back(

@@ -261,6 +261,20 @@ bool has_error_history(const record::CaseRecord& problem) {
   });
 }
 
+std::size_t worst_mass(const record::CaseRecord& problem) {
+  std::size_t worst = 1;
+  double largest = 0.0;
+  for (const auto& subject : problem.subjects) {
+    const auto* run = subject.shown_run();
+    if (run == nullptr) continue;
+    const auto& errors = run->error_history.y;
+    for (std::size_t mass = 0; mass < std::min(errors.size(), most_drawn_masses); ++mass)
+      for (const double error : errors[mass])
+        if (error > largest) largest = error, worst = mass + 1;
+  }
+  return worst;
+}
+
 const record::Subject* drawn_subject(const record::CaseRecord& problem) {
   for (const auto& subject : problem.subjects) {
     const auto* run = subject.shown_run();

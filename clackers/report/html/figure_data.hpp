@@ -43,6 +43,8 @@ nlohmann::ordered_json profile_data(const std::vector<record::Profile>& profiles
 bool has_convergence(const record::CaseRecord& problem);
 /// Whether an error against time has anything to draw: one above zero.
 bool has_error_history(const record::CaseRecord& problem);
+/// The mass, from 1, of the largest error in those curves.
+std::size_t worst_mass(const record::CaseRecord& problem);
 /// The subject whose shown run is a history with displacements of all masses; nullptr without one.
 const record::Subject* drawn_subject(const record::CaseRecord& problem);
 

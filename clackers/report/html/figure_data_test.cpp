@@ -1,5 +1,6 @@
 #include "clackers/report/html/figure_data.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,6 +46,29 @@ TEST(FigureData, TheFirstNineMassesHaveCurvesOfTheirOwnStyle) {
   }
   EXPECT_EQ(figure["color"]["scale"]["domain"][8], "mass 9");
   for (const auto& curve : data["history"]) EXPECT_LE(curve["mass"], 9);
+}
+
+TEST(FigureData, TheErrorAgainstTimeOpensOnTheMassOfTheLargest) {
+  auto problem = sample();
+  auto& errors = problem.subjects[0].levels.back().runs[0].error_history.y;
+  for (const std::size_t mass : {2u, 1u}) {
+    for (auto& y : errors) y.assign(y.size(), 1e-3);
+    errors[mass - 1].back() = 1e3;
+    EXPECT_EQ(worst_mass(problem), mass);
+    EXPECT_EQ(figure_specifications(problem)["history"]["params"][2]["value"], mass);
+    int number = 1;
+    EXPECT_NE(
+        figures_html(problem, {}, number)
+            .find(fmt::format("data-mass=\"{}\" data-of=\"history\" aria-pressed=\"true\"", mass)),
+        std::string::npos);
+  }
+}
+
+TEST(FigureData, RunsOfTheAnimationHaveTheirStepWithItsUnit) {
+  const auto motion = player_data(sample_check().cases[0]);
+  ASSERT_FALSE(motion["runs"].empty());
+  EXPECT_TRUE(std::regex_match(motion["runs"][0]["step"].get<std::string>(),
+                               std::regex("h = [0-9.e-]+ s")));
 }
 
 TEST(PlotStyle, TheFirstThirtyTwoMassesDiffer) {

@@ -29,8 +29,10 @@ std::string power_label(const std::string& axis) {
                      digit("floor(" + size + " / 100)") + " : '') + (" + size + " >= 10 ? " +
                      digit("(floor(" + size + " / 10) % 10)") + " : '') + " +
                      digit("(" + size + " % 10)");
-  return "abs(log(datum.value) / LN10 - " + exponent + ") < 1e-9 ? " + power + " : domain('" +
-         axis + "')[1] / domain('" + axis + "')[0] < 30 ? format(datum.value, '.2~g') : ''";
+  const auto ratio = "domain('" + axis + "')[1] / domain('" + axis + "')[0]";
+  return "abs(log(datum.value) / LN10 - " + exponent + ") < 1e-9 ? " + power + " : " + ratio +
+         " < 1.5 ? format(datum.value, '.4~g') : " + ratio +
+         " < 30 ? format(datum.value, '.2~g') : ''";
 }
 
 // A tick of a logarithmic axis: ..., 0.5, 1, 2, 5, 10, 20, ...
@@ -126,6 +128,20 @@ Json restitution_range(const record::CaseRecord& problem) {
   return least < most ? Json{least, most} : Json::array();
 }
 
+// Around values that hardly differ, so that the labels of their axis do.
+Json least_range(const record::Sheet& sheet) {
+  constexpr double share = 0.01;
+  double least = INFINITY, most = -INFINITY;
+  for (const auto& row : sheet.rows)
+    for (std::size_t c = 1; c < row.size(); ++c)
+      if (const double value = record::number_in(row[c]); !std::isnan(value)) {
+        least = std::min(least, value);
+        most = std::max(most, value);
+      }
+  const double room = share * std::abs(most);
+  return most - least < room ? Json{least - room, most + room} : Json::array();
+}
+
 }  // namespace
 
 Json specification_of(std::string_view text, const std::vector<std::string>& methods, Json values) {
@@ -158,7 +174,8 @@ Json figure_specifications(const record::CaseRecord& problem) {
   if (has_convergence(problem))
     all["convergence"] = specification_of(assets::convergence_vl_json, names, step);
   if (has_error_history(problem))
-    all["history"] = specification_of(assets::history_vl_json, names, step);
+    all["history"] = specification_of(assets::history_vl_json, names,
+                                      {{"x_step", step["x_step"]}, {"mass", worst_mass(problem)}});
   if (const auto range = restitution_range(problem); !range.empty())
     all["impacts"] =
         specification_of(assets::impacts_vl_json, names, {{"restitution_range", range}});
@@ -182,9 +199,11 @@ Json profile_specification(const std::vector<record::Profile>& profiles) {
 }
 
 Json curves_specification(const record::Sheet& sheet, std::string_view name) {
-  const auto scale = [](bool is_log) {
+  const bool is_whole = sheet.columns[0].kind == record::ColumnKind::whole;
+  const auto scale = [](bool is_log, int padding) {
     Json axis{{"type", is_log ? "log" : "linear"}, {"nice", false}};
     if (!is_log) axis["zero"] = false;
+    if (padding > 0) axis["padding"] = padding;
     return axis;
   };
   const auto axis = [](const std::string& title, bool is_log, const std::string& label) {
@@ -198,18 +217,26 @@ Json curves_specification(const record::Sheet& sheet, std::string_view name) {
   Json mark = Json::array();
   for (const double x : axes.marks) mark.push_back({{"x", rounded(x)}, {"text", axes.mark_text}});
   const auto x_title = sheet.columns[0].label();
+  const auto y_title = names.size() > 1 ? axes.y
+                       : axes.y.empty() ? names[0]
+                                        : fmt::format("{}, {}", axes.y, names[0]);
   auto x_axis = axis(x_title, axes.log_x, ratio_label());
-  if (sheet.columns[0].kind == record::ColumnKind::whole)
+  auto y_scale = scale(axes.log_y, 12);
+  if (is_whole) {
     for (const auto& row : sheet.rows) x_axis["values"].push_back(record::number_in(row[0]));
-  return specification_of(
-      assets::curves_vl_json, names,
-      {{"data", std::string(name)},
-       {"x_scale", scale(axes.log_x)},
-       {"y_scale", scale(axes.log_y)},
-       {"x_title", x_title},
-       {"x_axis", x_axis},
-       {"y_axis", axis(names.size() == 1 ? names[0] : axes.y, axes.log_y, power_label("y"))},
-       {"mark", mark}});
+    if (!axes.x_names.empty()) x_axis["labelExpr"] = json_text(axes.x_names) + "[datum.value - 1]";
+    if (const auto range = least_range(sheet); !range.empty())
+      y_scale["domain"] = {{"unionWith", range}};
+  }
+  return specification_of(assets::curves_vl_json, names,
+                          {{"data", std::string(name)},
+                           {"x_scale", scale(axes.log_x, is_whole ? 24 : 0)},
+                           {"y_scale", y_scale},
+                           {"point_opacity", is_whole ? 1 : 0},
+                           {"x_title", x_title},
+                           {"x_axis", x_axis},
+                           {"y_axis", axis(y_title, axes.log_y, power_label("y"))},
+                           {"mark", mark}});
 }
 
 void rename_data(Json& specification, std::string_view suffix) {

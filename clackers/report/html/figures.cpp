@@ -91,11 +91,12 @@ std::string mass_choice(const record::CaseRecord& problem, const Place& place) {
   if (problem.response.y.size() < 2) return {};
   std::string out =
       "<div class=\"tools\" role=\"group\" aria-label=\"Mass shown in the figure\">\n";
+  const auto shown = worst_mass(problem);
   for (std::size_t mass = 1; mass <= drawn_masses(problem); ++mass)
     out += fmt::format(
         "<button type=\"button\" data-mass=\"{0}\" data-of=\"history{2}\" "
         "aria-pressed=\"{1}\">mass {0}</button>\n",
-        mass, mass == 1 ? "true" : "false", place.suffix);
+        mass, mass == shown ? "true" : "false", place.suffix);
   return out + "</div>\n";
 }
 

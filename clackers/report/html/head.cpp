@@ -24,10 +24,11 @@ std::string overall_html(const record::Record& record) {
   const auto causes = line.counts.empty() && record.cases.size() == 1
                           ? diagnoses_html(record.cases.front(), {})
                           : std::string();
-  auto out = causes.empty() ? fmt::format("<p class=\"overall\">{} <span>{}</span></p>\n",
-                                          badge(line.word), text)
-                            : fmt::format("<p class=\"overall\">{}</p>\n{}<p>{}</p>\n",
-                                          badge(line.word), causes, text);
+  const bool has_cause = !causes.empty() && deciding_cause(record.cases.front().subjects.front());
+  auto out = has_cause ? fmt::format("<p class=\"overall\">{}</p>\n{}<p>{}</p>\n", badge(line.word),
+                                     causes, text)
+                       : fmt::format("<p class=\"overall\">{} <span>{}</span></p>\n{}",
+                                     badge(line.word), text, causes);
   if (record.interrupted)
     out +=
         "<p class=\"notice\" role=\"note\"><strong>Interrupted.</strong> Only what was finished is "

@@ -2,6 +2,7 @@
 
 #include "clackers/base/number.hpp"
 #include "clackers/report/html/figure_data.hpp"
+#include "clackers/report/words/words.hpp"
 
 namespace clackers::report {
 namespace {
@@ -52,7 +53,7 @@ Json player_data(const record::CaseRecord& problem) {
     Json displacements = Json::array();
     for (const auto& y : curve.y) displacements.push_back(rounded_list(y));
     runs.push_back({{"name", subject.name},
-                    {"step", rounded(run->score.step)},
+                    {"step", resolution_text(subject, run->score.step)},
                     {"t", rounded_list(curve.t)},
                     {"u", std::move(displacements)}});
   }

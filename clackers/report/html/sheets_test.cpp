@@ -57,6 +57,21 @@ TEST(SheetsPage, DrawsThePointsThatHaveAValueAndAreNotCutOff) {
             json_text(drawn).find("\"$schema"));  // no placeholder is left
 }
 
+TEST(SheetsPage, PointsAtWholeNumbersAreDrawnAndNamed) {
+  std::vector<record::Sheet> all{{"clackers/order/1",
+                                  "Order",
+                                  {{"record", "", "", record::ColumnKind::whole}, {"rk4", "", ""}},
+                                  {{1.0, 2.0}, {2.0, 2.0}},
+                                  record::Axes{.x_names = {"v1.0", "v\"2"}, .y = "order"}}};
+  const auto drawn = embedded(html(all, "records", {}), "specifications")["order"];
+  EXPECT_EQ(drawn["layer"][2]["mark"]["opacity"], 1);
+  EXPECT_EQ(drawn["encoding"]["x"]["axis"]["labelExpr"], R"(["v1.0","v\"2"][datum.value - 1])");
+  const auto& y = drawn["layer"][1]["encoding"]["y"];
+  EXPECT_EQ(y["axis"]["title"], "order, rk4");
+  EXPECT_LT(y["scale"]["domain"]["unionWith"][0], 2.0);
+  EXPECT_GT(y["scale"]["domain"]["unionWith"][1], 2.0);
+}
+
 TEST(SheetsPage, HasALegendForSeveralCurvesOnly) {
   auto all = sheets();
   EXPECT_NE(html(all, "newmark", {}).find("data-legend=\"decay\""), std::string::npos);

@@ -99,7 +99,10 @@ std::string quantities_html(const std::string& caption, const std::vector<Quanti
   for (const auto& quantity : quantities)
     rows.push_back({fmt::format("<code>{}</code>", escape(quantity.name)),
                     quantity.text.empty() ? html_number(quantity.value, 10) : escape(quantity.text),
-                    escape(quantity.unit), escape(quantity.meaning)});
+                    quantity.unit.empty()
+                        ? std::string()
+                        : fmt::format("<span class=\"unit\">{}</span>", escape(quantity.unit)),
+                    escape(quantity.meaning)});
   const HtmlColumn columns[] = {{"Name", {}}, {"Value", {}, true}, {"Unit", {}}, {"Meaning", {}}};
   return html_table(caption, caption, columns, rows);
 }

@@ -198,10 +198,11 @@ void add_status(Xml& xml, const record::Subject& subject) {
   const auto status = status_of(subject);
   if (status == Status::passed) return;
   const auto found = finding(subject).value_or(Finding{});
-  const auto causes = diagnosis_texts(subject);
+  const auto* cause = deciding_cause(subject);
   Attributes attributes{
-      {"message", causes.empty() ? text_of(found)
-                                 : fmt::format("{} {}", text_of(causes.front()), text_of(found))}};
+      {"message", cause == nullptr
+                      ? text_of(found)
+                      : fmt::format("{} {}", text_of(diagnosis_text(*cause)), text_of(found))}};
   if (status == Status::skipped) return xml.empty("skipped", attributes);
   attributes.emplace_back(
       "type", found.code.empty() ? std::string(record::verdict_word(subject)) : found.code);

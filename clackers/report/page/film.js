@@ -12,10 +12,10 @@ const escaped = (text) => text.replace(/[&<>]/g, (sign) => `&#${sign.charCodeAt(
 
 const svg = new Element("svg");
 for (const [key, value] of Object.entries({ xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${stageWidth} ${stageHeight}`,
-  width: pixels, height: (pixels * stageHeight) / stageWidth, "font-family": "sans-serif", "font-size": 13 })) svg.setAttribute(key, value);
+  width: pixels, height: (pixels * stageHeight) / stageWidth, "font-family": "sans-serif", "font-size": textSize })) svg.setAttribute(key, value);
 const show = drawMotion(svg, scene, runs.length);
 let x = 12;
-const names = ["exact", ...runs.map((run) => `${run.name}, ${+run.step.toPrecision(3)}`)];
+const names = ["exact", ...runs.map((run) => `${run.name}, ${run.step}`)];
 names.forEach((name, k) => {
   const text = svgElement(svg, "text", { x, y: stageHeight - 12, fill: k === 0 ? "var(--ink)" : outlineColor(k - 1) }, escaped(name));
   x += 8 * name.length + 24;

@@ -7,8 +7,11 @@ function startPlayer(stage) {
   const masses = scene.blocks.length, end = scene.t.at(-1);
   const svg = svgElement(stage, "svg", {
     viewBox: `0 0 ${stageWidth} ${stageHeight}`, "aria-hidden": "true", xmlns: "http://www.w3.org/2000/svg",
-    "font-family": "sans-serif", "font-size": 13
+    "font-family": "sans-serif", "font-size": textSize
   });
+  // In a narrow frame letters are larger, up to what a block has room for.
+  new ResizeObserver(() => svg.setAttribute("font-size",
+    Math.min(28, Math.max(textSize, (11 * stageWidth) / (stage.clientWidth || stageWidth))))).observe(stage);
   const draw = drawMotion(svg, scene, 1);
 
   const frame = document.querySelector(`[data-plot="${CSS.escape(stage.dataset.response)}"]`);
@@ -73,7 +76,7 @@ function startPlayer(stage) {
   scene.runs.forEach((run, k) => choice.append(new Option(`compared with ${run.name}, ${run.step}`, String(k))));
   choice.addEventListener("change", () => { beside = scene.runs[Number(choice.value)] || null; show(); });
   const frameSvg = () => withLightColors(new XMLSerializer().serializeToString(svg)
-    .replace("<svg ", `<svg width="${stageWidth}" height="${stageHeight}" style="background:var(--paper)" `));
+    .replace(/font-size="[^"]*"/, `font-size="${textSize}"`).replace("<svg ", `<svg width="${stageWidth}" height="${stageHeight}" style="background:var(--paper)" `));
   const file = () => `clackers-${stage.dataset.player}-${now.toFixed(3)}s`;
   // Records the motion from its beginning to its end at the chosen speed; a second press ends it there.
   let filming = false;

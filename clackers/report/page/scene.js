@@ -2,7 +2,7 @@
 // A system of masses as a drawing: blocks on columns, springs and stops, or bodies or strings where they are, in a scale
 // that lets the widest motion fit. The manual's figures are drawn by it too.
 
-const stageWidth = 1000, stageHeight = 300, groundLevel = 262, roofLevel = 46, blockHeight = 30;
+const stageWidth = 1000, stageHeight = 300, groundLevel = 262, roofLevel = 46, blockHeight = 30, textSize = 13;
 
 function svgElement(parent, tag, attributes, text) {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
@@ -300,7 +300,7 @@ function drawMotion(svg, scene, most) {
     mark: svgElement(svg, "circle", { r: 13, fill: "var(--impact)", opacity: 0, "data-contact": contact })
   }));
   const forcesAt = drawForces(svg, scene.forces ?? { t: [0], u: [] }, drawn);
-  const clock = svgElement(svg, "text", { x: stageWidth - 4, y: 18, "text-anchor": "end", fill: "var(--muted)" });
+  const clock = svgElement(svg, "text", { x: stageWidth - 4, y: 22, "text-anchor": "end", fill: "var(--muted)" });
   return (now, runs) => {
     const u = valuesAt(scene, now);
     outlines.forEach((move, run) => move(runs[run] && valuesAt(runs[run], now)));

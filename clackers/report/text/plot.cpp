@@ -48,6 +48,7 @@ class Canvas {
     cell.curve = curve;
   }
   void label(int x, int y, int curve) { at(x, y) = {0, curve, char('1' + curve)}; }
+  bool has_label(int x, int y) { return at(x, y).label != 0; }
 
   std::string line(int row, const Style& style) const {
     constexpr TextColor colors[] = {TextColor::blue, TextColor::yellow, TextColor::green,
@@ -101,18 +102,34 @@ void draw(Canvas& canvas, const std::vector<double>& x, const std::vector<double
   }
 }
 
-// Digits on the curves, which take turns along the axis.
+// Digits on the curves, which take turns along the axis, and at points that no line reaches.
 void label(Canvas& canvas, const std::vector<double>& x, const std::vector<std::vector<double>>& y,
            const Range& across, const Range& up) {
   constexpr int dots_apart = 24;
-  std::size_t i = 0;
+  const auto column = [&](double value) { return dot_of(value, across, canvas.dots_wide()); };
+  const auto row = [&](double value) {
+    return canvas.dots_high() - 1 - dot_of(value, up, canvas.dots_high());
+  };
+  std::size_t i = 1;
   for (int dot = dots_apart / 2, turn = 0; dot < canvas.dots_wide(); dot += dots_apart, ++turn) {
-    while (i + 1 < x.size() && dot_of(x[i], across, canvas.dots_wide()) < dot) ++i;
+    while (i + 1 < x.size() && column(x[i]) < dot) ++i;
     const auto curve = std::size_t(turn) % y.size();
-    if (std::isnan(y[curve][i])) continue;
-    const int row = canvas.dots_high() - 1 - dot_of(y[curve][i], up, canvas.dots_high());
-    canvas.label(dot, row, int(curve));
+    const double before = y[curve][i - 1], after = y[curve][i];
+    if (std::isnan(before) || std::isnan(after)) continue;
+    const double share = std::clamp(
+        double(dot - column(x[i - 1])) / std::max(column(x[i]) - column(x[i - 1]), 1), 0.0, 1.0);
+    canvas.label(dot, row(before + (after - before) * share), int(curve));
   }
+  for (std::size_t curve = 0; curve < y.size(); ++curve)
+    for (std::size_t point = 0; point < x.size(); ++point) {
+      const bool is_reached = (point > 0 && !std::isnan(y[curve][point - 1])) ||
+                              (point + 1 < x.size() && !std::isnan(y[curve][point + 1]));
+      if (is_reached || std::isnan(y[curve][point])) continue;
+      int dot = column(x[point]);
+      const int height = row(y[curve][point]), inward = 2 * dot < canvas.dots_wide() ? 2 : -2;
+      while (canvas.has_label(dot, height)) dot += inward;  // there are nine curves at most
+      canvas.label(dot, height, int(curve));
+    }
 }
 
 std::string axis(const Range& across, std::span<const double> marks, int columns) {
@@ -130,12 +147,15 @@ std::string tick(double value, bool is_log, int digits, std::size_t width = 32) 
 }
 
 std::string tick_labels(const CharacterPlot& plot, const Range& across, int columns) {
-  constexpr int ticks = 4;
+  const double length = across.hi - across.lo;
+  double step = length / 4;
+  if (plot.whole_x) step = std::max(std::ceil(step), 1.0);
+  const int ticks = int(length / step + 1e-9);
   std::string out(std::size_t(margin + columns), ' ');
   for (int k = 0; k <= ticks; ++k) {
-    const double value = across.lo + (across.hi - across.lo) * k / ticks;
+    const double value = across.lo + k * step;
     const auto text = tick(value, plot.log_x, 4) + (k == ticks ? plot.x_unit : "");
-    const int centre = margin + (columns - 1) * k / ticks - int(text.size()) / 2;
+    const int centre = margin + dot_of(value, across, columns) - int(text.size()) / 2;
     const int last = int(out.size()) - int(text.size());
     out.replace(std::size_t(std::clamp(centre, 0, last)), text.size(), text);
   }
@@ -215,6 +235,7 @@ std::string curves(const record::Sheet& sheet, const Style& style) {
   CharacterPlot picture{.title = sheet.title + "; across: " + sheet.columns[0].label(),
                         .log_x = axes.log_x,
                         .log_y = axes.log_y,
+                        .whole_x = sheet.columns[0].kind == record::ColumnKind::whole,
                         .rows = 9,
                         .least_height = 1e-6};
   const auto number = [](const record::Cell& cell) {

@@ -135,6 +135,20 @@ TEST(CurvesPlot, CutsOffWhatIsTooHigh) {
   EXPECT_NE(out[1].find("10 ┤"), std::string::npos);
 }
 
+TEST(CurvesPlot, LabelsStandOnTheirLinesAndAtPointsThatNoLineReaches) {
+  auto sheet = decay({});
+  sheet.columns[0].kind = record::ColumnKind::whole;
+  sheet.rows = {{1.0, 0.0, {}}, {2.0, 8.0, 4.0}};
+  const auto out = lines(curves(sheet, {}));
+  EXPECT_EQ(display_width(out[5].substr(0, out[5].find('2'))), 79u) << out[5];
+  EXPECT_EQ(out[1].find('1'), std::string::npos) << "its line is low there";
+  EXPECT_NE(out[9].find('1'), std::string::npos);
+  EXPECT_TRUE(out[11].ends_with("2")) << out[11];
+  EXPECT_EQ(out[11].find("1.5"), std::string::npos);
+  sheet.rows = {{1.0, {}, {}}, {2.0, 8.0, 8.0}};
+  EXPECT_TRUE(lines(curves(sheet, {}))[5].ends_with("21"));
+}
+
 TEST(CurvesPlot, DrawsACurveThatOnlyRoundingChangesAsALine) {
   auto sheet = decay({});
   sheet.columns.pop_back();

@@ -187,9 +187,9 @@ OpeningLine opening_line(const record::Record& record) {
     return line;
   }
   const auto& subject = record.cases.front().subjects.front();
-  if (!subject.diagnoses.empty() && word != "agrees") {
+  if (const auto* cause = deciding_cause(subject); cause != nullptr && word != "agrees") {
     line.has_cause = true;
-    line.text += text_of(diagnosis_text(subject.diagnoses.front()));
+    line.text += text_of(diagnosis_text(*cause));
   } else if (const auto found = finding(subject)) {
     line.has_finding = true;
     line.text += text_of(*found);
@@ -237,10 +237,10 @@ VerdictLine verdict_line(const record::Record& record) {
     for (const auto& subject : problem.subjects)
       if (decisive == nullptr && record::verdict_word(subject) == line.word && finding(subject))
         decisive = &subject;
-  const bool has_cause = decisive != nullptr && !decisive->diagnoses.empty();
-  const auto code = decisive == nullptr ? std::string()
-                    : has_cause         ? decisive->diagnoses.front().code
-                                        : finding(*decisive)->code;
+  const auto* cause = decisive == nullptr ? nullptr : deciding_cause(*decisive);
+  const auto code = cause != nullptr      ? cause->code
+                    : decisive == nullptr ? std::string()
+                                          : finding(*decisive)->code;
   const auto next = [&](std::string command, std::string in_words = {}) {
     line.next_in_words = in_words.empty() ? command : std::move(in_words);
     line.next = std::move(command);
@@ -255,7 +255,7 @@ VerdictLine verdict_line(const record::Record& record) {
   const auto command =
       record.provenance.command.empty() ? "clackers " + record.command : record.provenance.command;
   // Of one history or a few the report says which to add.
-  const bool needs_more = decisive != nullptr && !has_cause && !hint_text(*decisive).empty();
+  const bool needs_more = decisive != nullptr && cause == nullptr && !hint_text(*decisive).empty();
   const bool is_decided =
       line.word == "agrees" || (line.word == "not claimed" && (code.empty() || needs_more));
   const bool call = is_call(command);
@@ -270,9 +270,9 @@ VerdictLine verdict_line(const record::Record& record) {
   };
   if (record.interrupted)
     next(command, call ? "the same call again" : "the same command again");
-  else if (!call && has_cause && !decisive->diagnoses.front().text.empty() &&
+  else if (!call && cause != nullptr && !cause->text.empty() &&
            (code == Code("columns-exchanged").name() || code == Code("masses-exchanged").name()))
-    same_with("--columns", decisive->diagnoses.front().text);
+    same_with("--columns", cause->text);
   else if (option)
     same_with(option->option, option->value, option->words);
   else if (!is_decided && !code.empty())

@@ -56,6 +56,8 @@ std::string self_convergence_text(const record::SelfResult& result);
 /// "Restitution looks like 0.9900 ±0.0001 instead of 1 (9e7 times closer): check
 /// the impact law and its coefficient."
 Finding diagnosis_text(const diagnose::Diagnosis& cause);
+/// The cause that a headline names: the strongest; nullptr where there is none or failed runs decide.
+const diagnose::Diagnosis* deciding_cause(const record::Subject& subject);
 /// Of the strongest causes of a subject, `most_shown_diagnoses` at most.
 std::vector<Finding> diagnosis_texts(const record::Subject& subject);
 inline constexpr std::size_t most_shown_diagnoses = 3;

@@ -27,6 +27,11 @@ bool is_shown_cause(const record::Subject& subject, std::string_view code) {
                      });
 }
 
+const Diagnosis* deciding_cause(const record::Subject& subject) {
+  const bool has_failed = subject.assessment.reason == Code("run-failed").name();
+  return has_failed || subject.diagnoses.empty() ? nullptr : &subject.diagnoses.front();
+}
+
 std::string departure_text(const record::CaseRecord& problem) {
   std::vector<const record::Subject*> left;
   std::string others;

@@ -381,6 +381,20 @@ TEST(VerdictLine, AnOrderThatIsNoHalfNumberIsNotExpected) {
   EXPECT_EQ(verdict_line(record).next, "clackers explain restitution-differs");
 }
 
+TEST(VerdictLine, FailedRunsThatDecideStandBeforeCauses) {
+  auto record = sample_check();
+  auto& subject = record.cases[0].subjects[0];
+  subject.diagnoses = {{"restitution-differs", 0.99, "1", 0.9, {}, "", ""}};
+  EXPECT_TRUE(opening_line(record).has_cause);
+  subject.assessment.verdict = Verdict::undecided;
+  subject.assessment.evidence.clear();
+  subject.assessment.displacement.behaviour = Behaviour::undecided;
+  subject.assessment.reason = subject.assessment.displacement.reason = "run-failed";
+  EXPECT_FALSE(opening_line(record).has_cause);
+  EXPECT_TRUE(opening_line(record).text.ends_with("[run-failed]")) << opening_line(record).text;
+  EXPECT_EQ(verdict_line(record).next, "clackers explain run-failed");
+}
+
 TEST(VerdictLine, AnUndecidedMethodGetsTheNumberToType) {
   auto record = sample_record();
   record.interrupted = false;

@@ -4,8 +4,7 @@
 #include "clackers/campaign/atlas.hpp"
 #include "clackers/record/record.hpp"
 #include "cli/commands/campaign/campaign_actions.hpp"
-#include "cli/files/output_file.hpp"
-#include "cli/messages.hpp"
+#include "cli/files/report_page.hpp"
 
 namespace clackers::cli {
 
@@ -16,11 +15,9 @@ int report_campaign(const CampaignOptions& options, const std::string& line) {
                                  options.files.front()),
                      "bad-syntax");
   const auto store = open_database(options.files.front());
-  OutputFile file(options.common.out, OnInterrupt::stop);
-  file.stream() << campaign::campaign_page(store, {}, "campaign report", record::provenance(line));
-  file.commit();
-  if (!options.common.quiet) note(fmt::format("Wrote {}", options.common.out));
-  return 0;
+  ReportPage page(options.common.out, options.common, OnInterrupt::stop, "--out");
+  const auto html = campaign::campaign_page(store, {}, "campaign report", record::provenance(line));
+  return page.write(html) ? 0 : 4;
 }
 
 }  // namespace clackers::cli

@@ -7,6 +7,7 @@
 #include "clackers/base/error.hpp"
 #include "clackers/base/files/files.hpp"
 #include "clackers/base/text.hpp"
+#include "clackers/campaign/task_source.hpp"
 #include "clackers/solvers/process.hpp"
 #include "cli/cluster/run_on_ranks.hpp"
 #include "cli/commands/campaign/campaign_actions.hpp"
@@ -18,7 +19,6 @@
 namespace clackers::cli {
 namespace {
 
-constexpr long long most_shards = 1'000'000;
 constexpr double patience = 60.0;  // [s] for sbatch
 
 std::string absolute(const std::string& path) {
@@ -49,8 +49,9 @@ BatchJob job_of(const CampaignOptions& options) {
   job.folder = std::filesystem::current_path().string();
   job.specification = absolute(options.files.front());
   job.database = absolute(database_of(options));
-  job.shards = read_whole("--shards", options.shards, 1, most_shards);
-  if (!options.jobs.empty()) job.jobs = read_whole("--jobs", options.jobs, 1, most_shards);
+  job.shards = read_whole("--shards", options.shards, 1, campaign::most_shards);
+  if (!options.jobs.empty())
+    job.jobs = read_whole("--jobs", options.jobs, 1, campaign::most_shards);
   job.is_large = options.yes;
   job.options = options.sbatch;
   return job;
