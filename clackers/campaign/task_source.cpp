@@ -8,12 +8,6 @@
 #include "clackers/base/number.hpp"
 
 namespace clackers::campaign {
-namespace {
-
-constexpr long long most_shards = 1000000;
-
-}  // namespace
-
 TaskSet::TaskSet(std::vector<TaskBlock> blocks) {
   std::ranges::sort(blocks, {}, &TaskBlock::first);
   for (const auto& block : blocks) {

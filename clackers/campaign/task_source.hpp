@@ -34,7 +34,8 @@ struct Shard {
 
   bool is_all() const { return count == 1; }
 };
-/// Reads "3/16". Throws InputError for anything else, and unless 1 <= index <= count <= 1e6.
+inline constexpr long long most_shards = 1'000'000;
+/// Reads "3/16". Throws InputError for anything else, and unless 1 <= index <= count <= most_shards.
 Shard shard_from(std::string_view text);
 
 /// How many of `tasks` in blocks of `block` are of a shard.

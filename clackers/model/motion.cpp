@@ -23,6 +23,15 @@ void require_inside(std::string_view who, double t, double end) {
            "time-outside");
 }
 
+void require_impact(std::string_view who, long long index, long long count, double end) {
+  if (index >= 1 && index <= count) return;
+  throw InputError(
+      fmt::format("{}: impact {} was asked for; allowed: {}.", who, index,
+                  count == 0 ? std::string("none, since nothing collides up to the end")
+                             : fmt::format("1 to {}, those up to t = {} s", count, end)),
+      "beyond-last-impact");
+}
+
 Kinematics Motion::peak() const {
   constexpr int parts = 1024;
   auto largest = envelope(0.0);

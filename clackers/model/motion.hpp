@@ -28,6 +28,8 @@ void require_buffers(std::string_view who, const SampleBuffers& out, std::size_t
                      std::size_t masses);
 /// Throws InputError (time-outside), `who` first, unless 0 <= t <= end [s].
 void require_inside(std::string_view who, double t, double end);
+/// Throws InputError (beyond-last-impact), `who` first, unless 1 <= index <= count, those up to end [s].
+void require_impact(std::string_view who, long long index, long long count, double end);
 
 /// The interval [lo, hi] in seconds that certainly holds the true instant.
 struct TimeEnclosure {

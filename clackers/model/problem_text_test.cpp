@@ -77,6 +77,7 @@ TEST(ProblemText, RefusesOtherLines) {
   EXPECT_REFUSED(read("v=0", "v=x"), "bad-syntax", "f:6: \"x\" is no number");
   EXPECT_REFUSED(read("v=0", "v 0"), "bad-syntax", "f:6: \"v 0 -1e-07\"");
   EXPECT_REFUSED(read("v=0", "w=0"), "unknown-name", "unknown key \"w\"");
+  EXPECT_REFUSED(read("v=0", "loads=3\nv=0"), "bad-syntax", "loads is no list of tables");
   EXPECT_REFUSED(read("M2=0 2", "M2=0"), "wrong-size", "row 2 of M has 1 numbers");
   EXPECT_REFUSED(read("K2=-1.5 5\n", ""), "wrong-size", "K has 1 rows");
   EXPECT_REFUSED(read("direction1=1 -1\n", ""), "bad-syntax", "f:13: \"gap1=-0.25\"");

@@ -189,11 +189,6 @@ SubjectChange change_of(const record::Subject& before, const record::Subject& no
 
 }  // namespace
 
-bool operator==(const Finding& a, const Finding& b) {
-  return a.refused == b.refused && a.complete == b.complete && a.verdict == b.verdict &&
-         a.behaviour == b.behaviour && a.reason == b.reason && a.claim == b.claim;
-}
-
 bool SubjectChange::any() const {
   return presence != Presence::both || finding || order || error || impacts || finished || work;
 }

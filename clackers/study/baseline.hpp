@@ -24,7 +24,7 @@ struct Finding {
   Behaviour behaviour = Behaviour::undecided;
   std::string reason;  ///< code of the behaviour or of the refusal
   Claim claim;
-  friend bool operator==(const Finding&, const Finding&);
+  friend bool operator==(const Finding&, const Finding&) = default;
 };
 
 /// Two numbers of runs with the same step.

@@ -9,7 +9,7 @@
 #include "clackers/measure/metrics/metric.hpp"
 #include "clackers/methods/registry.hpp"
 #include "clackers/study/shared_runs.hpp"
-#include "clackers/study/testing/toy_motion.hpp"
+#include "clackers/tables/testing/counted_motion.hpp"
 
 namespace clackers::study {
 namespace {
@@ -122,7 +122,7 @@ class RunsOfMethods : public testing::Test {
   std::optional<Measured> assessed(ScriptedMethod::Script script, bool metrics = false) {
     method_ = std::make_shared<ScriptedMethod>(std::move(script));
     study_ = {};
-    study_.problem.motion = std::make_shared<ToyMotion>(1, 8.0, std::vector<double>{});
+    study_.problem.motion = std::make_shared<tables::CountedMotion>(1, 8.0, std::vector<double>{});
     auto& problem = study_.problem.problem;
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(1, 1);
     problem.system = {unit, unit, unit};
@@ -214,7 +214,7 @@ TEST_F(RunsOfMethods, AreMeasuredOnceWhereMethodsShareThem) {
 
 TEST_F(RunsOfMethods, CostMoreWhereMetricsAreMeasured) {
   method_ = std::make_shared<ScriptedMethod>([](int) { return true; });
-  study_.problem.motion = std::make_shared<ToyMotion>(1, 8.0, std::vector<double>{});
+  study_.problem.motion = std::make_shared<tables::CountedMotion>(1, 8.0, std::vector<double>{});
   const MethodCandidate candidate(method_, study_, {}, {});
   EXPECT_GT(candidate.cost({{0.1, 100, 0.0}, {.metrics = true}}),
             candidate.cost({{0.1, 100, 0.0}}));

@@ -91,7 +91,7 @@ TEST_F(SolversUnderTest, KeepTheFailuresOfTheirRuns) {
   const auto& run = subject.levels[0].runs[0];
   EXPECT_EQ(run.score.failure_code, "program-failed");
   EXPECT_EQ(run.printed, "no licence");
-  EXPECT_EQ(record::failure_of_all(record)->score.failure, "exit status 1.");
+  EXPECT_EQ(record::failed_solvers(record).at(0).first->score.failure, "exit status 1.");
 }
 
 TEST_F(SolversUnderTest, AreNotRunFurtherAfterThreeFailuresThatSmallerStepsShare) {

@@ -5,19 +5,13 @@
 #include <cmath>
 #include <cstdint>
 
+#include "clackers/base/mixed_bits.hpp"
+
 namespace clackers::campaign {
 namespace {
 
-// The output function of SplitMix64 (G. L. Steele et al., OOPSLA 2014): a bijection that mixes all bits.
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
 std::uint64_t key_of(const Sample& sample, std::size_t dimension) {
-  return mixed(mixed(static_cast<std::uint64_t>(sample.seed)) + dimension);
+  return mixed_bits(mixed_bits(static_cast<std::uint64_t>(sample.seed)) + dimension);
 }
 
 // In [0, 1).
@@ -34,7 +28,7 @@ long long permuted(long long i, long long size, unsigned long long key) {
   do {
     auto left = x >> bits, right = x & mask;
     for (std::uint64_t round = 0; round < 4; ++round) {
-      const auto next = left ^ (mixed(mixed(key + round) + right) & mask);
+      const auto next = left ^ (mixed_bits(mixed_bits(key + round) + right) & mask);
       left = right;
       right = next;
     }
@@ -48,7 +42,7 @@ std::vector<double> sample_point(const Sample& sample, std::size_t dimensions, l
   if (sample.kind == SampleKind::latin_hypercube) {
     for (std::size_t d = 0; d < dimensions; ++d) {
       const auto key = key_of(sample, d);
-      const auto place = share_of(mixed(key ^ mixed(static_cast<std::uint64_t>(i))));
+      const auto place = share_of(mixed_bits(key ^ mixed_bits(static_cast<std::uint64_t>(i))));
       point[d] = (double(permuted(i, sample.points, key)) + place) / double(sample.points);
     }
     return point;

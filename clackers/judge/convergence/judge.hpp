@@ -79,64 +79,10 @@ struct JudgeContext {
 
 /// Assesses a method by its ladder, coarsest level first, against its claim through impacts
 /// (`undecided` claims nothing). Behaviour and verdict go by the displacement error; velocity and
-/// impact times are fitted beside it. The rules for the behaviour, first hit wins:
-///
-///     divergent [energy-growth]     no line, errors that do not fall, and most runs of both finest
-///                                   levels end with more than twice the true energy and with
-///                                   more than it had at the start, unless a compliant law has
-///                                   another limit (below)
-///     divergent [simultaneous-impacts]
-///                                   undecided, the errors of the four finest levels are as large as
-///                                   the motion and do not fall, and they come from impacts of one
-///                                   instant (comes_from_shared_impacts)
-///     stagnating [simultaneous-impacts]
-///                                   at an unexplained or a rough floor that comes from them, and at
-///                                   any that is as large as the motion
-///     stagnating [contact-stiffness]
-///                                   a compliant law that claims nothing, as that of dry friction, whose
-///                                   errors are as large as the motion and the same on the four finest
-///                                   levels
-///     stagnating [reason claimed]   at such a floor above `large_error`, where a claim to diverge, or
-///                                   none, names its reason
-///     undecided [numerical-damping] undecided with falling errors, and most of those runs end with
-///                                   less than half of it
-///     undecided [too-few-levels]    errors above `large_error` fall by no order that a method
-///                                   has, and most runs of the finest level miscount impacts
-///     stagnating [printed-digits]   the finest history's error is within `rounding_slack` of what
-///                                   printing makes, and the fit is exact, a floor or has too few
-///                                   levels
-///     exact                         claimed, with errors that grow as steps shrink, but by no more than
-///                                   rounding of second differences
-///     reduced                       a straight line of the very order that is claimed as reduced
-///     what fit_ladder found         otherwise
-///
-/// Where a line, an envelope or an unexplained floor above `large_error` does not agree, it is that of the
-/// levels behind those at which more than a quarter of the runs miscount impacts with errors above
-/// `large_error`, but for a finest level of that
-/// kind. Where one does not agree, levels of steps longer than twice the time between impacts that take part in each
-/// other (closest_impacts), or than a 32nd of it where irregular convergence is claimed, do not count either; with less
-/// than four others it is undecided [too-few-levels]. Where an envelope that is claimed does not agree, that of the finer
-/// half of the levels counts: if it no longer falls too fast, or if its whole interval is above the slope of all levels
-/// and it agrees.
-///
-/// Verdict on the claim: `not claimed` without a claim; `undecided` where the behaviour is, where an
-/// exact motion met a claim of some order (nothing above rounding to measure it on), where printed
-/// digits hide the order, and where the spread of an envelope's order covers a claim beyond the
-/// tolerance; `agrees` where the behaviour is the claimed one with an order within the tolerance
-/// above, or the claimed reason of a floor (a floor without a claimed reason agrees with any, also
-/// with one as large as the motion where impacts are simultaneous);
-/// otherwise `disagrees`. A claim is two-sided: better than claimed is another behaviour and
-/// disagrees as well, unless velocities are as claimed, or an irregular order is claimed and no impact
-/// happens. Impacts missed or extra on the two finest levels disagree whatever the errors say, unless
-/// the claim is a floor and their number is right (then they came too late to be matched) or, at the very
-/// floor that is claimed, above `large_error`, off by at most a half; where an envelope is claimed, only
-/// if most runs of both levels miscount. A claim to diverge says nothing of impacts, and agrees with a
-/// floor above a tenth of the motion. A claim to converge disagrees where the files converge to another limit.
-///
-/// A tolerance has a verdict of its own, `undecided` where printing makes more than the difference
-/// between error and tolerance. The finest history of no claimed behaviour disagrees where it is of
-/// another motion: it starts far from the reference, misses an impact or has one too many. Of
-/// several verdicts counts the first of disagrees, undecided, agrees, not claimed.
+/// impact times are fitted beside it. The rules, which say what a fit, energies, missed and extra
+/// impacts, printed digits and a tolerance are worth, are those of
+/// docs/manual/reference/verdict-rules.md, in its order: behaviour_of() has the conditions that replace
+/// the result of a fit, compare() and evidence_of() the verdicts. A claim is two-sided.
 Assessment judge(const measure::Ladder& ladder, const Claim& claim, const JudgeContext& facts = {});
 
 /// Half the distance between two claimed orders: a velocity whose order lies further below that of

@@ -80,8 +80,11 @@ Richardson extrapolate(std::span<const Response> runs, const SelfContext& contex
   for (const auto& run : runs) levels.push_back({run});
   const auto self = self_convergence(levels, context);
   const auto& fit = self.differences;
+  // Another reason of this fit is one of the first run of each level, not of the method.
+  if (fit.reason == Code("run-failed").name()) return unbounded(fit.reason);
   if (!self.proper)
-    return unbounded(fit.reason.empty() ? Code("improper-convergence").name() : fit.reason);
+    return unbounded(std::ssize(runs) <= shortest_window ? Code("too-few-levels").name()
+                                                         : Code("improper-convergence").name());
   const Extrapolation terms(runs, q);
   const int from = std::max(fit.first_level, fit.last_level - shortest_window + 1);
   for (int j = from; j < fit.last_level; ++j)

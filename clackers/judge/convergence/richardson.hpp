@@ -28,8 +28,8 @@ struct Richardson {
 /// four differences, and each of the last four, d, departs from the r^-q fold of the one
 /// before by no more than (1 - rho) / (1 + rho) of it, rho = r^-q. (While departures theta stay so
 /// small, |d_{j+m} - rho^m d_j| <= rho^m ((1 + theta)^m - 1) |d_j|; summed over m this is at most
-/// rho / (1 - rho) |d_j|, the bound.) Otherwise `reason` is "improper-convergence", that of an
-/// undecided fit, or "differences-turn": an error whose sign flips at each level has differences of
+/// rho / (1 - rho) |d_j|, the bound.) Otherwise `reason` is "run-failed", "too-few-levels",
+/// "improper-convergence", or "differences-turn": an error whose sign flips at each level has differences of
 /// the very order, and an extrapolation worse than the finer run.
 ///
 /// `next_order` q' > q is the order of the next term, for the estimate.

@@ -128,6 +128,10 @@ TEST(Richardson, AnImproperSequenceIsRefusedWithItsReason) {
   EXPECT_EQ(reason([](double h) { return Values{h * h}; }, 4), "too-few-levels");
   EXPECT_EQ(reason([](double h) { return h < 0.002 ? Values{} : Values{h * h}; }), "run-failed");
   EXPECT_EQ(reason([](double) { return Values{1.0}; }), "improper-convergence");
+  // Of one run a level the fit of the differences has a reason of its own.
+  EXPECT_EQ(reason([](double h) { return Values{h * h * (1.0 + 0.8 * std::sin(40.0 / h))}; }),
+            "improper-convergence");
+  EXPECT_EQ(reason([](double h) { return Values{h * h + 1e-7 / h}; }), "improper-convergence");
 }
 
 TEST(Richardson, RoundingEndsTheRangeAndIsPartOfTheBound) {

@@ -59,9 +59,6 @@ FlightFrequencies flight_frequencies(const Comparison& comparison);
 /// InputError unless there are two masses and their errors.
 double detuning(const Comparison& comparison, const FlightFrequencies& found);
 
-/// Synchrony counts as lost when the time between two impacts is wrong by this part of T.
-inline constexpr double lost_synchrony = 0.1;
-
 /// How a run of impacts lost synchrony, or how far it kept it.
 struct SynchronyLoss {
   long long impacts = 0;          ///< looked at

@@ -244,13 +244,7 @@ class Penalty::Loop {
     steps_ = time_loop_.run(*this, problem_.start, out);
   }
 
-  model::Work work() const {
-    model::Work work;
-    work.steps = steps_;
-    work.event_searches = searches_;
-    stepper_->add_work(work);
-    return work;
-  }
+  model::Work work() const { return work_of(steps_, searches_, *stepper_); }
 
   AnyStepper<Dof>& stepper() { return *stepper_; }
 

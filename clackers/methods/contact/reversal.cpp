@@ -81,12 +81,7 @@ class Reversal::Loop {
     steps_ = time_loop_.run(*this, problem_.start, out);
   }
 
-  model::Work work() const {
-    model::Work work;
-    work.steps = steps_;
-    stepper_->add_work(work);
-    return work;
-  }
+  model::Work work() const { return work_of(steps_, 0, *stepper_); }
 
   AnyStepper<Dof>& stepper() { return *stepper_; }
 

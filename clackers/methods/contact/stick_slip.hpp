@@ -60,12 +60,7 @@ class StickSlip {
   }
 
   model::Work work() const {
-    model::Work work;
-    work.steps = steps_;
-    work.event_searches = searches_;
-    free_stepper_->add_work(work);
-    constrained_stepper_->add_work(work);
-    return work;
+    return work_of(steps_, searches_, *free_stepper_, *constrained_stepper_);
   }
 
   AnyStepper<Dof>& stepper() {

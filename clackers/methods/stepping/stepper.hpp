@@ -19,7 +19,8 @@ namespace clackers::methods {
 ///
 ///     struct Memory<Dof>                            what survives a step; made from the size
 ///     prepare(equation, h)                          names the weights of its equations at h
-///     start(equation, state, memory)                fills the memory
+///     start(equation, state, memory)                fills the memory; not needed where it is that
+///                                                   of AccelerationMemory
 ///     advance(equation, h, state, memory)           moves state and memory by h
 ///     partial(equation, h, s, state, memory)        only where advance() by s < h is impossible,
 ///                                                   because the memory holds steps of length h
@@ -54,7 +55,12 @@ class Stepper final : public AnyStepper<Dof> {
     prepare();
   }
 
-  void restart(const State& from) override { integrator_.start(equation_, from, memory_); }
+  void restart(const State& from) override {
+    if constexpr (requires { integrator_.start(equation_, from, memory_); })
+      integrator_.start(equation_, from, memory_);
+    else
+      AccelerationMemory().start(equation_, from, memory_);
+  }
 
   std::size_t advance(long long first, std::span<State> states) override {
     first_memory_ = memory_;

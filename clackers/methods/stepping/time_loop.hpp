@@ -18,6 +18,15 @@ enum class Handled {
   shortened,  ///< as changed, and the step ends earlier, at an event: `now` is no state of output
 };
 
+/// The work of a run with these steppers.
+inline model::Work work_of(long long steps, long long searches, const auto&... steppers) {
+  model::Work work;
+  work.steps = steps;
+  work.event_searches = searches;
+  (steppers.add_work(work), ...);
+  return work;
+}
+
 /// The loop over the steps of a run, in blocks. A contact treatment has
 ///
 ///     stepper()                  the stepper in use

@@ -1,8 +1,8 @@
 #include <memory>
 
 #include "clackers/exact/quantities/energy.hpp"
-#include "clackers/tables/respond/energy_balance.hpp"
-#include "clackers/tables/respond/timed_rows.hpp"
+#include "clackers/tables/times/energy_balance.hpp"
+#include "clackers/tables/times/timed_rows.hpp"
 
 namespace clackers::tables {
 namespace {

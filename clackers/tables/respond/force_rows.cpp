@@ -7,8 +7,8 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/model/forces.hpp"
-#include "clackers/tables/respond/running_integral.hpp"
-#include "clackers/tables/respond/timed_rows.hpp"
+#include "clackers/tables/times/running_integral.hpp"
+#include "clackers/tables/times/timed_rows.hpp"
 
 namespace clackers::tables {
 namespace {

@@ -9,10 +9,10 @@
 #include "clackers/exact/quantities/energy.hpp"
 #include "clackers/exact/quantities/sensitivity.hpp"
 #include "clackers/exact/quantities/spectrum.hpp"
-#include "clackers/study/testing/toy_motion.hpp"
 #include "clackers/tables/listing/show_sheets.hpp"
 #include "clackers/tables/respond.hpp"
-#include "clackers/tables/respond/timed_rows.hpp"
+#include "clackers/tables/testing/counted_motion.hpp"
+#include "clackers/tables/times/timed_rows.hpp"
 
 namespace clackers::tables {
 namespace {
@@ -149,10 +149,10 @@ TEST(SpectrumRows, AreTheTransformFromZeroToTheHighestFrequency) {
 // Masses 1, 2 and 3 kg with v = i and u = i t, on springs of 2 N/m; two impacts at 1 s, each with
 // the loss of 1 J that both make together, and one of 3 J at 2 s.
 TEST(EnergyRows, OfAnyMotionAreThoseOfItsStatesAndImpacts) {
-  struct Lossy : study::ToyMotion {
-    Lossy() : study::ToyMotion(3, 4.0, {1.0, 1.0, 2.0}) {}
+  struct Lossy : CountedMotion {
+    Lossy() : CountedMotion(3, 4.0, {1.0, 1.0, 2.0}) {}
     model::MotionImpact impact(long long index) const override {
-      auto now = study::ToyMotion::impact(index);
+      auto now = CountedMotion::impact(index);
       now.energy_after = now.energy_before - (index < 3 ? 1.0 : 3.0);
       return now;
     }
@@ -238,7 +238,7 @@ TEST(QuantityRows, NeedAClosedFormAndTimesInsideTheRun) {
   const cases::CaseEntry entry{"toy", "", "", {}};
   cases::Case toy;
   toy.entry = &entry;
-  toy.motion = std::make_shared<study::ToyMotion>(2, 4.0, std::vector<double>{});
+  toy.motion = std::make_shared<CountedMotion>(2, 4.0, std::vector<double>{});
   for (const auto& text : {refusal_of([&] { sensitivity(toy, grid_of(2, 1.0), "m1"); }),
                            refusal_of([&] { spectrum(toy, 2, 1.0); })})
     EXPECT_NE(text.find("toy is none. [no-closed-form]"), std::string::npos) << text;

@@ -2,7 +2,7 @@
 
 #include "clackers/tables/case_summary.hpp"
 #include "clackers/tables/respond.hpp"
-#include "clackers/tables/respond/timed_rows.hpp"
+#include "clackers/tables/times/timed_rows.hpp"
 
 namespace clackers::tables {
 namespace {

@@ -7,7 +7,7 @@
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
 #include "clackers/exact/quantities/sensitivity.hpp"
-#include "clackers/tables/respond/timed_rows.hpp"
+#include "clackers/tables/times/timed_rows.hpp"
 
 namespace clackers::tables {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "clackers/base/error.hpp"
 #include "clackers/exact/quantities/spectrum.hpp"
-#include "clackers/tables/respond/timed_rows.hpp"
+#include "clackers/tables/times/timed_rows.hpp"
 
 namespace clackers::tables {
 namespace {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "clackers/numerics/golden_section.hpp"
 #include "clackers/numerics/line_fit.hpp"
 
 namespace clackers::judge {
@@ -86,16 +87,7 @@ double best_power(const std::vector<Point>& points, double q) {
       least = here;
       best = p;
     }
-  constexpr double golden = 0.6180339887498949;
-  double low = best / 1.1, high = best * 1.1;
-  for (int i = 0; i < 30; ++i) {
-    const double left = high - golden * (high - low), right = low + golden * (high - low);
-    if (squares(left) < squares(right))
-      high = right;
-    else
-      low = left;
-  }
-  return 0.5 * (low + high);
+  return numerics::golden_section(best / 1.1, best * 1.1, 30, squares).x;
 }
 
 // Standard errors of a, b and p at the optimum.

@@ -293,9 +293,4 @@ PolylineDistance one_sided_distance(const Polyline& from, const Polyline& to, do
   }
 }
 
-PolylineDistance hausdorff_distance(const Polyline& line, const Polyline& other) {
-  const auto first = one_sided_distance(line, other);
-  return first.complete ? one_sided_distance(other, line, first.value) : first;
-}
-
 }  // namespace clackers::measure

@@ -88,7 +88,4 @@ inline constexpr auto too_far_apart =
 PolylineDistance one_sided_distance(const Polyline& from, const Polyline& to,
                                     double at_least = 0.0);
 
-/// The larger of both one-sided distances.
-PolylineDistance hausdorff_distance(const Polyline& line, const Polyline& other);
-
 }  // namespace clackers::measure

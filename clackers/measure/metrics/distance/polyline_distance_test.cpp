@@ -28,6 +28,12 @@ Line line(std::initializer_list<std::pair<double, double>> points) {
   return made;
 }
 
+// The larger of both one-sided distances.
+PolylineDistance hausdorff_distance(const Polyline& line, const Polyline& other) {
+  const auto first = one_sided_distance(line, other);
+  return first.complete ? one_sided_distance(other, line, first.value) : first;
+}
+
 // The bound's excess over the value: 1e-6 of it.
 constexpr double excess = 1e-6;
 

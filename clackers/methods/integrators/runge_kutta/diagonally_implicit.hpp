@@ -30,12 +30,6 @@ struct DiagonallyImplicit {
   using Memory = AccelerationMemory::Memory<Dof>;
 
   template <int Dof>
-  void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
-             Memory<Dof>& memory) const {
-    AccelerationMemory().start(equation, from, memory);
-  }
-
-  template <int Dof>
   void prepare(MotionEquation<Dof>& equation, double h) const {
     for (int i = 0; i < stages; ++i)
       if (at(i, i) != 0.0) equation.factorized(weights<Dof>(at(i, i) * h));

@@ -22,12 +22,6 @@ struct CollocationMethod {
   using Memory = AccelerationMemory::Memory<Dof>;
 
   template <int Dof>
-  void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
-             Memory<Dof>& memory) const {
-    AccelerationMemory().start(equation, from, memory);
-  }
-
-  template <int Dof>
   void prepare(MotionEquation<Dof>& equation, double h) const {
     equation.factorized(weights<Dof>(h));
   }

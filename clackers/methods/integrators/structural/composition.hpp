@@ -26,12 +26,6 @@ struct Composition {
   }
 
   template <int Dof>
-  void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
-             Memory<Dof>& memory) const {
-    central.start(equation, from, memory);
-  }
-
-  template <int Dof>
   void advance(MotionEquation<Dof>& equation, double h, model::State<Dof>& x,
                Memory<Dof>& memory) const {
     const double end = x.t + h;

@@ -48,7 +48,7 @@ struct Multistep {
   template <int Dof>
   void start(MotionEquation<Dof>& equation, const model::State<Dof>& from,
              Memory<Dof>& memory) const {
-    average.start(equation, from, memory.start);
+    AccelerationMemory().start(equation, from, memory.start);
     memory.count = 0;
   }
 
@@ -154,7 +154,7 @@ struct Multistep {
   template <int Dof>
   void find_acceleration(MotionEquation<Dof>& equation, const model::State<Dof>& x,
                          Memory<Dof>& memory) const {
-    average.start(equation, x, memory.start);
+    AccelerationMemory().start(equation, x, memory.start);
   }
 
   template <int Dof>

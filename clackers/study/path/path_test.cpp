@@ -1,4 +1,4 @@
-#include "clackers/study/path.hpp"
+#include "clackers/study/path/path_sheets.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

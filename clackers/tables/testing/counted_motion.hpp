@@ -7,14 +7,14 @@
 #include "clackers/base/error.hpp"
 #include "clackers/model/motion.hpp"
 
-namespace clackers::study {
+namespace clackers::tables {
 
 /// For tests: masses i = 1, 2, ... with u_i = i t, velocity +i in flights of even number and -i in
 /// odd ones (no physics), and impacts at given times. An impact counts as passed only where its
 /// time is strictly exceeded if `late`, so that both manners of counting can be tried.
-class ToyMotion : public model::Motion {
+class CountedMotion : public model::Motion {
  public:
-  ToyMotion(int dof, double end, std::vector<double> impacts, bool late = false)
+  CountedMotion(int dof, double end, std::vector<double> impacts, bool late = false)
       : dof_(dof), end_(end), impacts_(std::move(impacts)), late_(late) {}
 
   int dof() const override { return dof_; }
@@ -71,4 +71,4 @@ class ToyMotion : public model::Motion {
   mutable long long asked_ = 0;
 };
 
-}  // namespace clackers::study
+}  // namespace clackers::tables

@@ -1,4 +1,4 @@
-#include "clackers/tables/respond/energy_balance.hpp"
+#include "clackers/tables/times/energy_balance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "clackers/study/path.hpp"
+#include "clackers/study/path/path_sheets.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,44 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
-#include "clackers/base/check.hpp"
-#include "clackers/base/error.hpp"
-#include "clackers/base/jobs/work_queue.hpp"
-#include "clackers/methods/registry.hpp"
 #include "clackers/numerics/line_fit.hpp"
-#include "clackers/study/method_candidate.hpp"
-#include "clackers/study/path/mesh_run.hpp"
-#include "clackers/study/run_sinks.hpp"
 
 namespace clackers::study {
 namespace {
-
-constexpr double most_work = 1e12;  // steps times squared degrees of freedom
-
-std::vector<double> meshes_of(const PathRequest& request) {
-  const auto base = cases::make_mesh(request.case_name, request.settings);
-  if (request.nu.empty()) refuse("verify", "path", 0.0, "one number or more");
-  for (const double nu : request.nu) require_within("verify", "path", nu, 1e-3, 100.0);
-  const double coarsest = value_of(base.values, "elements");
-  std::vector<double> list;
-  for (int k = 0; k < request.levels * request.samples_per_level; ++k) {
-    const double n = std::round(coarsest * std::exp2(double(k) / request.samples_per_level));
-    if (list.empty() || n > list.back()) list.push_back(n);
-  }
-  if (list.size() < 3)
-    refuse("verify", "levels", double(request.levels), "three meshes or more with --path");
-  // Before any work what is not allowed of the finest mesh is refused.
-  const auto finest =
-      cases::make_mesh(request.case_name, with_elements(request.settings, list.back()));
-  const double steps = steps_along_path(finest, list.back(), std::ranges::min(request.nu)),
-               dof = double(finest.problem.dof());
-  if (!(steps * dof * dof < most_work))
-    refuse("verify", "steps", steps, "fewer with so many elements",
-           "End the run earlier, or take fewer levels.", "too-many-steps");
-  return list;
-}
 
 // Of runs over meshes, and of their finest that did not fail.
 struct Ladder {
@@ -99,101 +66,6 @@ std::vector<record::Column> error_columns() {
           {"energy", "", "gained up to the end, over the largest kinetic one of the bar"}};
 }
 
-}  // namespace
-
-PathOrders expected_along_path(double smooth_order) {
-  if (smooth_order < 1.5) return {1.0 / 2.0, 1.0 / 2.0, 1.0 / 4.0, "1/2 1/2 1/4"};
-  return {2.0 / 3.0, 1.0 / 2.0, 1.0 / 3.0, "2/3 1/2 1/3"};
-}
-
-namespace {
-
-using Methods = std::vector<std::shared_ptr<const methods::Method>>;
-
-void require_step_in_proportion(const std::string& name, bool is_adaptive) {
-  if (is_adaptive)
-    throw InputError(fmt::format("verify --path: {} chooses its steps; allowed: methods with a "
-                                 "step in proportion to the elements. Leave it or --path out.",
-                                 name),
-                     "not-admissible");
-}
-
-Methods methods_of(const PathRequest& request) {
-  Methods list;
-  const bool is_default = request.methods.empty() && request.solvers.empty();
-  for (const auto& name : is_default ? methods::default_panel() : request.methods) {
-    list.push_back(methods::method(name));
-    require_step_in_proportion(name, list.back()->facts().is_adaptive);
-  }
-  for (const auto& solver : request.solvers)
-    require_step_in_proportion(solver.name, !solver.tolerances.empty());
-  return list;
-}
-
-// What the rows of the sheets are of, methods before solvers.
-struct Judged {
-  std::string name;
-  double smooth_order = 0.0;
-};
-
-std::vector<Judged> all_of(const PathRequest& request, const Methods& list) {
-  constexpr double usual = 2.0;  // of a solver that claims none
-  std::vector<Judged> all;
-  for (const auto& method : list) {
-    const auto facts = method->facts();
-    all.push_back({methods::short_name(facts.name), facts.smooth_order});
-  }
-  for (const auto& solver : request.solvers)
-    all.push_back({solver.name, solver.claim.order > 0.0 ? solver.claim.order : usual});
-  return all;
-}
-
-// A mesh that was run with the step of one path, with the errors of all methods.
-struct MeshRuns {
-  double nu = 0.0, elements = 0.0, h = 0.0, step = 0.0, e_space = 0.0;
-  std::vector<MeshErrors> errors;
-};
-
-// With its exact motion where that can be.
-cases::Case best_known(std::string_view name, const cases::Settings& settings, double elements) {
-  auto mesh = cases::make_mesh(name, settings);
-  if (elements > mesh.most_exact_elements) return mesh;
-  try {
-    return cases::make(name, settings);
-  } catch (const InputError&) {
-    return mesh;  // an impact or a release of its contact is not certain
-  }
-}
-
-// Nothing when interrupted.
-std::optional<MeshRuns> run_mesh(const PathRequest& request, const Methods& list, double nu,
-                                 double elements, TaskShare& share,
-                                 const std::atomic<bool>* interrupt) {
-  const auto known = mesh_reference(
-      best_known(request.case_name, with_elements(request.settings, elements), elements), elements,
-      nu);
-  const auto& problem = known.mesh.problem;
-  MeshRuns runs{nu, elements, known.h, known.step, known.e_space, {}};
-  for (const auto& method : list) {
-    if (const auto objection = method->objection(problem)) {
-      runs.errors.emplace_back().failure =
-          fmt::format("{} [{}]", objection_text(*method, *objection), objection->code.name());
-      continue;
-    }
-    MeshSink sink(known);
-    WatchedSink watched(&sink, share, 0.0, interrupt);
-    const auto outcome = method->prepare(problem, known.step)->advance(watched);
-    if (outcome.stopped_by_sink) return {};
-    runs.errors.push_back(sink.errors(outcome));
-  }
-  for (const auto& solver : request.solvers) {
-    auto errors = errors_of(solver, known, interrupt);
-    if (!errors) return {};
-    runs.errors.push_back(std::move(*errors));
-  }
-  return runs;
-}
-
 // A table of a method: of each mesh e_time of all steps and the step at which it equals e_space, on
 // logarithms a line between two steps. Nothing where the steps do not enclose it.
 record::Sheet crossings_of(const std::vector<double>& paths, const std::string& name,
@@ -237,8 +109,15 @@ record::Sheet crossings_of(const std::vector<double>& paths, const std::string& 
   return sheet;
 }
 
-PathStudy study_of(const PathRequest& request, const std::vector<Judged>& list,
-                   const std::vector<MeshRuns>& meshes) {
+}  // namespace
+
+PathOrders expected_along_path(double smooth_order) {
+  if (smooth_order < 1.5) return {1.0 / 2.0, 1.0 / 2.0, 1.0 / 4.0, "1/2 1/2 1/4"};
+  return {2.0 / 3.0, 1.0 / 2.0, 1.0 / 3.0, "2/3 1/2 1/3"};
+}
+
+PathStudy path_study(const PathRequest& request, const std::vector<Judged>& list,
+                     const std::vector<MeshRuns>& meshes) {
   const bool several = request.nu.size() > 1;
   constexpr std::size_t most_curves = 8;  // beside that of the mesh
   record::Sheet orders{
@@ -336,33 +215,6 @@ PathStudy study_of(const PathRequest& request, const std::vector<Judged>& list,
     study.sheets.insert(study.sheets.begin(),
                         {std::move(orders), std::move(finest), std::move(curves)});
   study.runs = std::move(all);
-  return study;
-}
-
-}  // namespace
-
-PathStudy follow_path(const PathRequest& request, const Progress& progress,
-                      const std::atomic<bool>* interrupt) {
-  const auto list = methods_of(request);
-  const auto meshes = meshes_of(request);
-  double total = 0.0;
-  for (const double n : meshes) total += n * n * n * double(request.nu.size());
-  ProgressMeter meter(total, progress);
-
-  // The finest, which lasts longest, first.
-  std::vector<std::optional<MeshRuns>> runs(meshes.size() * request.nu.size());
-  run_all(runs.size(), thread_count(request.jobs), [&](std::size_t k) {
-    const auto at = runs.size() - 1 - k, mesh = at / request.nu.size();
-    if (interrupt != nullptr && *interrupt) return;
-    TaskShare share(meter, std::pow(meshes[mesh], 3));
-    runs[at] =
-        run_mesh(request, list, request.nu[at % request.nu.size()], meshes[mesh], share, interrupt);
-  });
-  std::vector<MeshRuns> finished;
-  for (auto& run : runs)
-    if (run) finished.push_back(std::move(*run));
-  auto study = study_of(request, all_of(request, list), finished);
-  study.interrupted = finished.size() < runs.size();
   return study;
 }
 

@@ -1,9 +1,10 @@
+#include "clackers/tables/times/time_grid.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "clackers/base/testing/refusal.hpp"
-#include "clackers/tables/respond.hpp"
 
 namespace clackers::tables {
 namespace {

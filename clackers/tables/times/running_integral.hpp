@@ -9,8 +9,8 @@
 
 namespace clackers::tables {
 
-/// The integrals from 0 to t of some rates over the states of a motion, by Lobatto's rule on intervals in which no mode and
-/// no load turns by more than 1 rad, halved until both halves agree with the whole to the rounding of `largest`.
+/// The integrals from 0 to t of some rates over the states of a motion, by Lobatto's rule on intervals in which no mode, also with
+/// all springs closed, and no load turns by more than 1 rad, halved until both halves agree with the whole to the rounding of `largest`.
 class RunningIntegral {
  public:
   using Rates = std::function<Eigen::VectorXd(double t, model::Side side)>;

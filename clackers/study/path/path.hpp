@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "clackers/base/jobs/progress.hpp"
@@ -42,14 +41,5 @@ struct PathStudy {
 /// meshes that are too many, for adaptive methods and solvers, and as verify() does. A run that fails is a row that says so.
 PathStudy follow_path(const PathRequest& request, const Progress& progress = {},
                       const std::atomic<bool>* interrupt = nullptr);
-
-/// Orders in h that a method of this order in smooth motion has along a path, by what spreads a jump of the velocity:
-/// dispersion, 2/3, 1/2 and 1/3 in u, v in L1 and v in L2, which linear elements have themselves; dissipation of first
-/// order, 1/2, 1/2 and 1/4. P. Brenner, V. Thomee, L. B. Wahlbin (1975).
-struct PathOrders {
-  double u = 0.0, v_l1 = 0.0, v_l2 = 0.0;
-  std::string_view text;  ///< the three as fractions
-};
-PathOrders expected_along_path(double smooth_order);
 
 }  // namespace clackers::study

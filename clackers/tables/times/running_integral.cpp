@@ -1,4 +1,4 @@
-#include "clackers/tables/respond/running_integral.hpp"
+#include "clackers/tables/times/running_integral.hpp"
 
 #include <algorithm>
 #include <array>
@@ -34,8 +34,14 @@ constexpr std::size_t most_intervals = 1'000'000;
 
 double fastest_of(const model::ImpactProblem<>& problem) {
   const auto& system = problem.system;
+  Eigen::MatrixXd stiffness = system.stiffness;  // with all springs closed
+  if (const auto* springs = model::one_sided_springs(problem))
+    for (std::size_t i = 0; i < springs->contacts().size(); ++i) {
+      const auto& direction = springs->contacts()[i].direction;
+      stiffness += springs->stiffnesses()[i] * direction * direction.transpose();
+    }
   double fastest =
-      std::max(std::sqrt(std::max(0.0, numerics::highest_square(system.stiffness, system.mass))),
+      std::max(std::sqrt(std::max(0.0, numerics::highest_square(stiffness, system.mass))),
                numerics::highest_square(system.damping, system.mass));
   if (const auto* load = system.add_load.target<model::HarmonicLoad>())
     for (const auto& f : load->forces()) fastest = std::max(fastest, f.frequency);

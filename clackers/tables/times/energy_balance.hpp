@@ -7,7 +7,7 @@
 #include "clackers/cases/case.hpp"
 #include "clackers/exact/quantities/energy.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
-#include "clackers/tables/respond/running_integral.hpp"
+#include "clackers/tables/times/running_integral.hpp"
 
 namespace clackers::tables {
 

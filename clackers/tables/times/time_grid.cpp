@@ -1,3 +1,5 @@
+#include "clackers/tables/times/time_grid.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "clackers/base/check.hpp"
 #include "clackers/base/error.hpp"
-#include "clackers/tables/respond.hpp"
 
 namespace clackers::tables {
 namespace {
