@@ -1,5 +1,7 @@
 #include "clackers/record/record.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace clackers::judge {

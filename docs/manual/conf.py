@@ -8,6 +8,7 @@ copyright = "The Clackers developers. Licence: Apache-2.0"
 version = release = os.environ["CLACKERS_VERSION"]
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax", "breathe"]
+napoleon_use_ivar = True  # fields stand in the docstring of their class
 source_suffix = {".md": "markdown"}
 nitpicky = False
 

@@ -19,10 +19,26 @@ namespace {
 
 constexpr double most_work = 1e12;  // steps times squared degrees of freedom
 
+// Before any work what is not allowed of the finest mesh is refused.
+cases::Case finest_of(const PathRequest& request, const std::vector<double>& meshes) {
+  try {
+    return cases::make_mesh(request.case_name, with_elements(request.settings, meshes.back()));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} It is the finest of the {} meshes of --path: start with fewer "
+                                 "elements, or take fewer --levels.",
+                                 error.what(), meshes.size()),
+                     error.code());
+  }
+}
+
 std::vector<double> meshes_of(const PathRequest& request) {
   const auto base = cases::make_mesh(request.case_name, request.settings);
   if (request.nu.empty()) refuse("verify", "path", 0.0, "one number or more");
-  for (const double nu : request.nu) require_within("verify", "path", nu, 1e-3, 100.0);
+  for (const double nu : request.nu) {
+    require_within("verify", "path", nu, 1e-3, 100.0);
+    if (std::ranges::count(request.nu, nu) > 1)
+      refuse("verify", "path", nu, "each number once", {}, "bad-syntax");
+  }
   const double coarsest = value_of(base.values, "elements");
   std::vector<double> list;
   for (int k = 0; k < request.levels * request.samples_per_level; ++k) {
@@ -31,9 +47,7 @@ std::vector<double> meshes_of(const PathRequest& request) {
   }
   if (list.size() < 3)
     refuse("verify", "levels", double(request.levels), "three meshes or more with --path");
-  // Before any work what is not allowed of the finest mesh is refused.
-  const auto finest =
-      cases::make_mesh(request.case_name, with_elements(request.settings, list.back()));
+  const auto finest = finest_of(request, list);
   const double steps = steps_along_path(finest, list.back(), std::ranges::min(request.nu)),
                dof = double(finest.problem.dof());
   if (!(steps * dof * dof < most_work))

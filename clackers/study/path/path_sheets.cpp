@@ -56,14 +56,14 @@ std::string reading_of(const Order& u, const Order& v_l1, const PathOrders& expe
 }
 
 std::vector<record::Column> error_columns() {
-  return {{"e_total", "", "largest error of u against the bar, over the largest u"},
+  return {{"e_total", "", "largest error of u against the body, over the largest u"},
           {"e_time", "",
            "of it the integrator's: against the exact motion of the mesh, where that is known"},
           {"e_space", "",
            "of it the mesh's, over the largest u (show: in m): known before anything runs"},
           {"v_l1", "", "error of v over x and t, in L1"},
           {"v_l2", "", "error of v over x and t, in L2"},
-          {"energy", "", "gained up to the end, over the largest kinetic one of the bar"}};
+          {"energy", "", "gained up to the end, over the largest kinetic one of the body"}};
 }
 
 // A table of a method: of each mesh e_time of all steps and the step at which it equals e_space, on
@@ -142,7 +142,7 @@ PathStudy path_study(const PathRequest& request, const std::vector<Judged>& list
                        {}};
   record::Sheet curves{
       "clackers/path-curves/1",
-      fmt::format("Largest error of u against the bar, step = {:g} h/c", request.nu.front()),
+      fmt::format("Largest error of u against the body, step = {:g} h/c", request.nu.front()),
       {{"h", "m", "length of an element"}, {"e_space", "", "error of the mesh"}},
       {},
       record::Axes{.log_x = true, .log_y = true, .y = "error of u"}};

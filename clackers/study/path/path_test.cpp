@@ -214,7 +214,10 @@ TEST(Path, RefusesWithTheReason) {
   auto many = request({"newmark"});
   many.levels = 9;
   many.samples_per_level = 1;
-  EXPECT_REFUSED(follow_path(many), "out-of-range", "4000");
+  EXPECT_REFUSED(follow_path(many), "out-of-range", "4000", "the finest of the 9 meshes");
+  auto twice = request({"newmark"});
+  twice.nu = {0.45, 0.45};
+  EXPECT_REFUSED(follow_path(twice), "bad-syntax", "each number once");
   auto few = request({"newmark"});
   few.levels = few.samples_per_level = 1;
   EXPECT_REFUSED(follow_path(few), "out-of-range", "three meshes");
