@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "clackers/exact/certified/ball.hpp"
+#include "clackers/exact/certified/ball_matrix.hpp"
 #include "clackers/exact/flights/held_contacts.hpp"
 #include "clackers/exact/flights/piecewise_motion.hpp"
 #include "clackers/model/harmonic_load.hpp"
@@ -45,38 +45,37 @@ class BallFlights {
   bool is_known(long bits) const;
 
  private:
-  using Vector = std::vector<Ball>;
-
   const model::Contact<>& contact(std::size_t i) const;
   bool is_held(std::size_t contact) const;
   std::optional<std::size_t> single_mass(std::size_t contact) const;
   Ball& entry(std::size_t row, std::size_t column) { return rate_[row * size_ + column]; }
-  Vector responses(const Eigen::VectorXd& force) const;
+  BallVector responses(const Eigen::VectorXd& force) const;
   void find_rate();
   void hold(const std::vector<std::size_t>& contacts);
-  Vector constrained_mobility() const;
+  BallVector constrained_mobility() const;
   std::vector<Ball> collide(const std::vector<std::size_t>& contacts,
                             const std::vector<std::size_t>& held);
-  Vector rate(const Vector& y) const;
-  KinematicBalls kinematics(const Vector& y) const;
-  Vector advanced(const Ball& s) const;
-  Vector advanced(Vector y, const Ball& s) const;
-  Ball gap(std::size_t i, const Vector& y, std::size_t first) const;
-  Ball force(std::size_t held, const Vector& y) const;
+  BallVector rate(const BallVector& y) const;
+  KinematicBalls kinematics(const BallVector& y) const;
+  BallVector advanced(const Ball& s) const;
+  BallVector advanced(BallVector y, const Ball& s) const;
+  Ball gap(std::size_t i, const BallVector& y, std::size_t first) const;
+  Ball force(std::size_t held, const BallVector& y) const;
 
   const model::ImpactProblem<>& problem_;
   const model::OneSidedSprings* springs_;
   std::vector<model::HarmonicForce> forces_;
   std::vector<bool> closed_;  // of the springs
   std::size_t n_, size_;
-  double unit_ = 1.0;               // of rates [1/s]: y has v over it
-  Vector inverse_mass_, mobility_;  // row by row; the second gives no acceleration to held contacts
+  double unit_ = 1.0;  // of rates [1/s]: y has v over it
+  BallVector inverse_mass_,
+      mobility_;  // row by row; the second gives no acceleration to held contacts
   std::vector<std::size_t> held_;
   std::optional<exact::HeldContacts<Ball>> constraint_;
-  Vector rate_;  // A, row by row; M times it in rows of velocities
-  Ball norm_;    // a bound on that of A
+  BallVector rate_;  // A, row by row; M times it in rows of velocities
+  Ball norm_;        // a bound on that of A
   Ball t_;
-  Vector y_;
+  BallVector y_;
 };
 
 }  // namespace clackers::certified
