@@ -350,13 +350,14 @@ record::Sheet impact_sheet(const record::Subject& subject) {
                        {"±", "", "what flights between rows leave of it"},
                        {"momentum defect", "",
                         "part of the change of momentum that no impulse along the contact makes"},
-                       {"late", "steps", "delay of the impact; below 0 it comes too early"}},
+                       {"late", is_by_step(subject) ? "steps" : "rows",
+                        "delay of the impact; below 0 it comes too early"}},
                       {}};
-  for (const auto& one : subject.impacts)
-    sheet.rows.push_back({one.t, (long long)(one.contact) + 1, one.closing, one.opening,
-                          one.restitution, one.restitution_error, one.momentum_defect,
-                          one.delay_steps});
-  if (std::ranges::any_of(subject.impacts, [](const auto& one) { return one.contact > 0; }))
+  for (const auto& impact : subject.impacts)
+    sheet.rows.push_back({impact.t, (long long)(impact.contact) + 1, impact.closing, impact.opening,
+                          impact.restitution, impact.restitution_error, impact.momentum_defect,
+                          impact.delay_steps});
+  if (std::ranges::any_of(subject.impacts, [](const auto& impact) { return impact.contact > 0; }))
     sheet.title += " (contacts numbered from 1)";
   return sheet;
 }
