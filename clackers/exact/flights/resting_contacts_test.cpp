@@ -413,6 +413,23 @@ TEST(RestingContacts, NeighboursOfAContactThatComesToRestMoveAsTheTaylorSeriesSa
   tally.record();
 }
 
+// A strong dashpot takes what the last impacts leave out to a light mass, and brakes it.
+TEST(RestingContacts, ALightNeighbourOfAContactThatComesToRestIsBraked) {
+  model::ImpactProblem<> problem;
+  problem.system.mass = Eigen::Vector2d(1.0, 1.0 / 64.0).asDiagonal();
+  problem.system.stiffness = MatrixXd::Zero(2, 2);
+  problem.system.damping = MatrixXd{{8.0, -8.0}, {-8.0, 8.0}};
+  problem.system.add_load = model::HarmonicLoad({{0, -1.0, 0.0, 0.0}});
+  problem.contacts = {{VectorXd::Unit(2, 0), 0.0, 0.5}};
+  problem.start = {0.0, Eigen::Vector2d(0.25, 0.0), Eigen::Vector2d(0.0, 0.5)};
+  problem.end = 3.0;
+  const PiecewiseMotion motion(problem);
+  // By series with 230 bits from impact to impact, down to rebounds of 1e-34 m/s.
+  const double known = -3.9050836406296732e-05;
+  EXPECT_LE(std::abs(motion.at(2.025, Side::right).v[1] - known), motion.error_bound(2.025).v[1]);
+  EXPECT_LT(motion.error_bound(2.025).v[1], 1e-8);
+}
+
 TEST(RestingContacts, OfRandomStructuresMoveAsTheTaylorSeriesSays) {
   Box box(43);
   Tally tally;
