@@ -20,32 +20,28 @@ bool BallFlights::is_held(std::size_t i) const { return std::ranges::count(held_
 // Displacements and velocities of the pivots are what the others make them.
 void BallFlights::hold(const std::vector<std::size_t>& contacts) {
   held_ = contacts;
-  constraint_.reset();
-  mobility_ = inverse_mass_;
-  if (!held_.empty()) {
-    std::vector<model::Contact<>> closed;
-    for (const auto i : held_) closed.push_back(contact(i));
-    const auto& c =
-        constraint_.emplace(closed, n_, [](const Ball& x) { return std::abs(x.middle()); });
-    mobility_ = constrained_mobility();
-    for (std::size_t k = 0; k < held_.size(); ++k) {
-      Ball u = c.gaps[k], v;
-      for (std::size_t i = 0; i < n_; ++i) {
-        if (c.is_pivot[i]) continue;
-        u = u - c.shares[k][i] * y_[i];
-        v = v - c.shares[k][i] * y_[n_ + i];
-      }
-      y_[c.pivots[k]] = u;
-      y_[n_ + c.pivots[k]] = v;
+  std::vector<model::Contact<>> closed;
+  for (const auto i : held_) closed.push_back(contact(i));
+  const auto& c =
+      constraint_.emplace(closed, n_, [](const Ball& x) { return std::abs(x.middle()); });
+  constrained_inverse_ = constrained_inverse_mass();
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    Ball u = c.gaps[k], v;
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (c.is_pivot[i]) continue;
+      u = u - c.shares[k][i] * y_[i];
+      v = v - c.shares[k][i] * y_[n_ + i];
     }
+    y_[c.pivots[k]] = u;
+    y_[n_ + c.pivots[k]] = v;
   }
   find_rate();
 }
 
 // S (S' M S)^-1 S', where the columns of S are the motions with held contacts.
-BallVector BallFlights::constrained_mobility() const {
+BallVector BallFlights::constrained_inverse_mass() const {
   const auto free = n_ - held_.size();
-  BallVector basis(free * n_), reduced, mobility(n_ * n_);
+  BallVector basis(free * n_), mass, reduced, inverse(n_ * n_);
   for (std::size_t i = 0, row = 0; i < n_; ++i) {
     if (constraint_->is_pivot[i]) continue;
     basis[row * n_ + i] = 1.0;
@@ -53,21 +49,20 @@ BallVector BallFlights::constrained_mobility() const {
       basis[row * n_ + constraint_->pivots[k]] = -constraint_->shares[k][i];
     ++row;
   }
-  if (free == 0) return mobility;
-  const auto column = [&](std::size_t c) {
-    return BallVector(basis.begin() + long(c * n_), basis.begin() + long((c + 1) * n_));
-  };
-  BallVector mass;
+  if (free == 0) return inverse;
   for (std::size_t i = 0; i < n_; ++i)
     for (std::size_t j = 0; j < n_; ++j) mass.emplace_back(problem_.system.mass(long(i), long(j)));
-  for (std::size_t c = 0; c < free; ++c)
-    for (const auto& entry : product(basis, product(mass, column(c)))) reduced.push_back(entry);
+  for (std::size_t c = 0; c < free; ++c) {
+    const auto column = basis.begin() + long(c * n_);
+    for (const auto& entry : product(basis, product(mass, {column, column + long(n_)})))
+      reduced.push_back(entry);
+  }
   const auto responses = solved(reduced, basis);
   for (std::size_t c = 0; c < free; ++c)
     for (std::size_t i = 0; i < n_; ++i)
       for (std::size_t j = 0; j < n_; ++j)
-        mobility[i * n_ + j] = mobility[i * n_ + j] + basis[c * n_ + i] * responses[c * n_ + j];
-  return mobility;
+        inverse[i * n_ + j] = inverse[i * n_ + j] + basis[c * n_ + i] * responses[c * n_ + j];
+  return inverse;
 }
 
 // M^-1 times a force.
@@ -86,7 +81,7 @@ Ball BallFlights::gap(std::size_t i, const BallVector& y, std::size_t first) con
 
 // What holds the contact closed, over unit_: of B' p = M a - f the rows of the pivots.
 Ball BallFlights::force(std::size_t held, const BallVector& y) const {
-  const auto forces = velocities(product(rate_, y), n_), a = product(mobility_, forces);
+  const auto forces = velocities(product(rate_, y), n_), a = product(constrained_inverse_, forces);
   const auto j = std::size_t(std::ranges::find(held_, held) - held_.begin());
   Ball sum;
   for (std::size_t k = 0; k < held_.size(); ++k) {

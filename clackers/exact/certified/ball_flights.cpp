@@ -11,8 +11,8 @@ namespace clackers::certified {
 namespace {
 
 // The forces of `rate` become accelerations.
-void accelerate(BallVector& rate, const BallVector& mobility, std::size_t n) {
-  std::ranges::copy(product(mobility, velocities(rate, n)), rate.begin() + long(n));
+void accelerate(BallVector& rate, const BallVector& inverse_mass, std::size_t n) {
+  std::ranges::copy(product(inverse_mass, velocities(rate, n)), rate.begin() + long(n));
 }
 
 }  // namespace
@@ -25,16 +25,10 @@ BallFlights::BallFlights(const model::ImpactProblem<>& problem,
   if (const auto* load = problem.system.add_load.target<model::HarmonicLoad>())
     forces_ = load->forces();
   size_ = 2 * n_ + 1 + 2 * forces_.size();
-  const auto& s = problem.system;
-  BallVector mass, identity(n_ * n_);
-  for (std::size_t i = 0; i < n_; ++i) {
-    for (std::size_t j = 0; j < n_; ++j) mass.emplace_back(s.mass(long(i), long(j)));
-    identity[i * n_ + i] = 1.0;
-  }
-  inverse_mass_ = mobility_ = solved(mass, identity);
   for (std::size_t i = 0; springs_ != nullptr && i < springs_->contacts().size(); ++i)
     closed_.push_back(springs_->contacts()[i].gap_at(problem.start.u) < 0.0);
-  find_rate();
+  hold({});
+  inverse_mass_ = constrained_inverse_;
 
   t_ = problem.start.t;
   y_.resize(size_);
@@ -79,14 +73,14 @@ void BallFlights::find_rate() {
     entry(cosine, cosine + 1) = -f.frequency;
     entry(cosine + 1, cosine) = f.frequency;
   }
-  BallVector absolute_mobility;
-  for (const auto& m : mobility_) absolute_mobility.push_back(upper(m));
+  BallVector absolute_inverse;
+  for (const auto& m : constrained_inverse_) absolute_inverse.push_back(upper(m));
   // The largest rate of any entry for entries of `columns` that are at most 1.
   const auto norm = [&](std::size_t columns) {
     BallVector most(size_);
     for (std::size_t i = 0; i < size_; ++i)
       for (std::size_t j = 0; j < columns; ++j) most[i] = most[i] + upper(entry(i, j));
-    accelerate(most, absolute_mobility, n_);
+    accelerate(most, absolute_inverse, n_);
     return largest(most);
   };
   // A power of 2, and the same for all regimes, so that a state may go on in another.
@@ -102,7 +96,7 @@ void BallFlights::find_rate() {
 
 BallVector BallFlights::rate(const BallVector& y) const {
   auto rate = product(rate_, y);
-  accelerate(rate, mobility_, n_);
+  accelerate(rate, constrained_inverse_, n_);
   return rate;
 }
 

@@ -35,8 +35,8 @@ class BallFlights {
   /// Ends the flight at the only such instant within event.when. False where the balls are too wide
   /// to show that the gap, or the force of a held contact, moves all the time.
   bool end(const exact::PiecewiseMotion::Event& event);
-  /// What happens there; from then on these contacts are held. Returns the impulses by Newton's law, of an impact
-  /// alone. Throws InputError (no-enclosure) where it might open a held contact that has no impulse.
+  /// What happens there; from then on these contacts are held. Returns the impulses by Newton's law, of impacts
+  /// only. Throws InputError (no-enclosure) where it might open a held contact that has no impulse.
   std::vector<Ball> pass(const exact::PiecewiseMotion::Event& event,
                          const std::vector<std::size_t>& held);
 
@@ -52,7 +52,7 @@ class BallFlights {
   BallVector responses(const Eigen::VectorXd& force) const;
   void find_rate();
   void hold(const std::vector<std::size_t>& contacts);
-  BallVector constrained_mobility() const;
+  BallVector constrained_inverse_mass() const;
   std::vector<Ball> collide(const std::vector<std::size_t>& contacts,
                             const std::vector<std::size_t>& held);
   BallVector rate(const BallVector& y) const;
@@ -67,9 +67,9 @@ class BallFlights {
   std::vector<model::HarmonicForce> forces_;
   std::vector<bool> closed_;  // of the springs
   std::size_t n_, size_;
-  double unit_ = 1.0;  // of rates [1/s]: y has v over it
-  BallVector inverse_mass_,
-      mobility_;  // row by row; the second gives no acceleration to held contacts
+  double unit_ = 1.0;               // of rates [1/s]: y has v over it
+  BallVector inverse_mass_;         // row by row
+  BallVector constrained_inverse_;  // the same with held contacts, which it does not accelerate
   std::vector<std::size_t> held_;
   std::optional<exact::HeldContacts<Ball>> constraint_;
   BallVector rate_;  // A, row by row; M times it in rows of velocities

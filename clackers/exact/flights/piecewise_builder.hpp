@@ -84,7 +84,7 @@ class PiecewiseMotion::Builder {
   std::size_t regime(const std::vector<bool>& closed);
   std::size_t after_impact(std::size_t regime);
   std::size_t with_held(std::size_t regime, const std::vector<std::size_t>& contacts, bool held);
-  std::vector<std::size_t> held(std::size_t regime) const;
+  std::vector<std::size_t> held(std::size_t regime) const { return m_.held_in(regime); }
   /// Of held contacts the last are the coordinates u = offset + basis q, and the forces that the
   /// contacts need for given forces on the masses.
   struct Constraint {

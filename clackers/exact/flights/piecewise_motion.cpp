@@ -61,11 +61,10 @@ bool PiecewiseMotion::is_resolved(std::size_t flight) const {
       unresolved_, [&](const auto& skipped) { return skipped.from <= flights_[flight].t; });
 }
 
-std::vector<std::size_t> PiecewiseMotion::held(std::size_t flight) const {
+std::vector<std::size_t> PiecewiseMotion::held_in(std::size_t regime) const {
   std::vector<std::size_t> held;
-  const auto& forces = forces_[flights_[flight].regime];
-  for (std::size_t i = 0; i < forces.size(); ++i)
-    if (forces[i]) held.push_back(i);
+  for (std::size_t i = 0; i < problem_.contacts.size(); ++i)
+    if (forces_[regime][i]) held.push_back(i);
   return held;
 }
 

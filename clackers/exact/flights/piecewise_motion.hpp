@@ -89,7 +89,9 @@ class PiecewiseMotion : public model::Motion {
   /// Whether flights resolve all that happens before this one.
   bool is_resolved(std::size_t flight) const;
   /// Contacts that are held in it, ascending.
-  std::vector<std::size_t> held(std::size_t flight) const;
+  std::vector<std::size_t> held(std::size_t flight) const {
+    return held_in(flights_[flight].regime);
+  }
   /// The flight at t, and the one that impact 1, 2, ... ends.
   std::size_t flight_at(double t, model::Side side) const;
   std::size_t flight_before(long long impact) const {
@@ -130,6 +132,7 @@ class PiecewiseMotion : public model::Motion {
   Vector total(const Flight& flight, double t) const;
   model::Kinematics in_flight(const Flight& flight, double t) const;
   bool is_held(std::size_t flight, std::size_t contact) const;
+  std::vector<std::size_t> held_in(std::size_t regime) const;
   /// Whether it ends at t give or take the error of that, without an impact: by a release or a spring.
   bool may_end(std::size_t flight, double t) const;
   FlightErrors errors_after(const Flight& flight, double s) const;

@@ -109,13 +109,6 @@ auto PiecewiseMotion::Builder::constraint(const std::vector<std::size_t>& contac
   return found;
 }
 
-std::vector<std::size_t> PiecewiseMotion::Builder::held(std::size_t regime) const {
-  std::vector<std::size_t> held;
-  for (std::size_t i = 0; i < springs(); ++i)
-    if (closed_[regime][i]) held.push_back(i);
-  return held;
-}
-
 std::size_t PiecewiseMotion::Builder::with_held(std::size_t regime,
                                                 const std::vector<std::size_t>& contacts,
                                                 bool held) {

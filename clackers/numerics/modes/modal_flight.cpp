@@ -14,32 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-// A and B are seen through modes: those that an entry above rounding of either matrix connects.
-std::vector<std::vector<Index>> coupled_blocks(const MatrixXd& a, const MatrixXd& b) {
-  const Index n = a.rows();
-  const double a_size = rounding_of(a), b_size = rounding_of(b);
-  std::vector<std::vector<Index>> blocks;
-  std::vector<bool> is_taken(std::size_t(n), false);
-  for (Index first = 0; first < n; ++first) {
-    if (is_taken[std::size_t(first)]) continue;
-    is_taken[std::size_t(first)] = true;
-    std::vector<Index> block{first};
-    for (std::size_t k = 0; k < block.size(); ++k)
-      for (Index j = 0; j < n; ++j) {
-        if (is_taken[std::size_t(j)]) continue;
-        if (!(std::abs(a(block[k], j)) > a_size || std::abs(b(block[k], j)) > b_size)) continue;
-        is_taken[std::size_t(j)] = true;
-        block.push_back(j);
-      }
-    blocks.push_back(std::move(block));
-  }
-  return blocks;
-}
-
-}  // namespace
-
 bool is_diagonal(const MatrixXd& x) { return x == MatrixXd(x.diagonal().asDiagonal()); }
 
 Mode::Mode(double decay, double square)

@@ -15,7 +15,7 @@ struct CharacterPlot {
   std::vector<double> marks{};           ///< on the axis of x
   std::string x_unit{}, y_unit{};        ///< behind numbers, " s"
   bool log_x = false, log_y = false;
-  bool whole_x = false;  ///< the axis of x has whole numbers alone
+  bool whole_x = false;  ///< the axis of x has only whole numbers
   int rows = 15;
   double least_height = 0.0;  ///< of the axis of y; curves within less are drawn flat
 };
