@@ -12,7 +12,8 @@ namespace clackers {
 struct CodeEntry {
   std::string_view name;  ///< kebab-case, never reused for another meaning
   std::string_view kind;  ///< "refusal", "failure", "behaviour", "reason", "diagnosis" or "verdict"
-  std::string_view meaning;  ///< what happened and what to do about it
+  /// What happened and what to do about it; of a diagnosis diagnose::Cause has the cure.
+  std::string_view meaning;
 };
 
 // clang-format off

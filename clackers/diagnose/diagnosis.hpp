@@ -79,7 +79,7 @@ enum class CauseEffect {
 /// All that is said of one cause beside its detection. {name} in a sentence is the value, a fact or the
 /// text of a diagnosis; a part in brackets is left out where a number or a text in it is not known.
 struct Cause {
-  Code code;  ///< code.meaning() is what `clackers explain` prints
+  Code code;
   CauseGroup group;
   CauseEffect effect;
   std::string_view unit,
@@ -91,6 +91,9 @@ struct Cause {
 std::span<const Cause> causes();
 /// The row of a code, or nullptr for one that is no cause.
 const Cause* find_cause(std::string_view code);
+
+/// What it means and what to do about it, whatever was found: what `clackers explain` prints.
+std::string meaning_of(const Cause& cause);
 
 /// What was found and what to do about it, in one sentence.
 std::string sentence_of(const Diagnosis& found);

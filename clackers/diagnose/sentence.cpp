@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -101,6 +102,8 @@ std::string word(std::string_view name, const Diagnosis& cause) {
                        cause.value > 1.0 ? "fast" : "slow");
   if (name == "clock")
     return fmt::format("are in {}, {} times seconds", cause.text, plain(cause.value));
+  if (name == "clock_cure" && std::isnan(cause.value))
+    return "convert them to seconds, or check the step that is taken and the one that is printed";
   if (name == "clock_cure")
     return cause.text.empty() ? "check the step that is taken and the one that is printed"
                               : "convert them to seconds";
@@ -175,6 +178,12 @@ std::string gain_text(const Diagnosis& cause) {
 }
 
 }  // namespace
+
+std::string meaning_of(const Cause& cause) {
+  auto cure = filled(cause.cure, {});
+  cure[0] = char(std::toupper(cure[0]));
+  return fmt::format("{} {}", cause.code.meaning(), cure);
+}
 
 std::string sentence_of(const Diagnosis& found) {
   const auto* cause = find_cause(found.code);

@@ -126,7 +126,7 @@ record::Sheet list_diagnoses() {
   };
   for (const auto& row : diagnose::causes())
     sheet.rows.push_back({std::string(row.code.name()), cell(row.unit), cell(row.value),
-                          std::string(row.code.meaning())});
+                          diagnose::meaning_of(row)});
   return sheet;
 }
 
@@ -173,8 +173,10 @@ record::Sheet explain(std::string_view code) {
   for (const auto& entry : code_table()) {
     known.emplace_back(entry.name);
     if (code.empty() || code == entry.name)
-      sheet.rows.push_back(
-          {std::string(entry.name), std::string(entry.kind), std::string(entry.meaning)});
+      sheet.rows.push_back({std::string(entry.name), std::string(entry.kind),
+                            entry.kind == "diagnosis"
+                                ? diagnose::meaning_of(*diagnose::find_cause(entry.name))
+                                : std::string(entry.meaning)});
   }
   if (sheet.rows.empty()) refuse_name("code", code, known, "clackers explain");
   return sheet;
