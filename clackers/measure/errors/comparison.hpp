@@ -54,6 +54,8 @@ class Comparison {
   std::size_t dof() const { return static_cast<std::size_t>(given_.dof); }
   std::size_t rows() const { return history().t.size(); }
   bool has_velocities() const { return !given_.v.empty(); }
+  /// Why what needs velocities is not measured without them.
+  static constexpr const char* no_velocities = "The history has no velocities.";
   bool has_accelerations() const { return !given_.a.empty(); }
   /// Median of the given history's differences between times, without zeros [s].
   double step() const { return step_; }

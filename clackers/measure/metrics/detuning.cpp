@@ -31,7 +31,7 @@ double turn(double difference) {
 
 std::string objection_to_detuning(const Comparison& comparison) {
   const auto& system = comparison.problem().system;
-  if (!comparison.has_velocities()) return "The history has no velocities.";
+  if (!comparison.has_velocities()) return Comparison::no_velocities;
   if (system.add_load || system.nonlinear) return "The system has a load or a nonlinear force.";
   if (!numerics::is_diagonal(system.mass) || !numerics::is_diagonal(system.damping) ||
       !numerics::is_diagonal(system.stiffness))

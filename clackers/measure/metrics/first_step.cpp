@@ -41,7 +41,7 @@ MetricValue restitution_smallest(const Comparison& comparison) {
 }
 
 MetricValue first_force_share(const Comparison& comparison) {
-  if (!comparison.has_velocities()) return not_measured("The history has no velocities.");
+  if (!comparison.has_velocities()) return not_measured(Comparison::no_velocities);
   const auto& problem = comparison.problem();
   const auto& history = comparison.history();
   const auto n = Eigen::Index(comparison.dof());

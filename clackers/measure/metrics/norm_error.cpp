@@ -111,7 +111,7 @@ MetricValue norm_error(const Comparison& comparison, Component quantity, Norm no
     case Component::u:
       return measured(comparison.shared(norms_of<Component::u>).of(norm));
     case Component::v:
-      if (!comparison.has_velocities()) return not_measured("The history has no velocities.");
+      if (!comparison.has_velocities()) return not_measured(Comparison::no_velocities);
       return measured(comparison.shared(norms_of<Component::v>).of(norm));
     case Component::a:
       break;

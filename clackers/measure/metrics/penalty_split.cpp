@@ -63,9 +63,8 @@ PenaltySplit penalty_split(const Comparison& comparison, const model::Motion& pe
   split.model_u = distances.largest(u, comparison.reference_u());
   split.integration_u = distances.largest(history.u, u);
   split.model_v = distances.mean(v, comparison.reference_v());
-  split.integration_v = comparison.has_velocities()
-                            ? distances.mean(history.v, v)
-                            : not_measured("The history has no velocities.");
+  split.integration_v = comparison.has_velocities() ? distances.mean(history.v, v)
+                                                    : not_measured(Comparison::no_velocities);
   return split;
 }
 

@@ -14,7 +14,7 @@ MetricValue energy_error(const Comparison& comparison, Energy energy) {
   if (std::isnan(potential))
     return not_measured("The structure has a nonlinear force, whose potential is not known.");
   if (energy != Energy::potential && !comparison.has_velocities())
-    return not_measured("The history has no velocities.");
+    return not_measured(Comparison::no_velocities);
   const double scale = comparison.meter().scales().energy;
   if (!(scale > 0.0)) return not_measured("The reference has no energy.");
   if (energy == Energy::total) return measured(comparison.meter().score().energy_error);
@@ -34,7 +34,7 @@ MetricValue energy_error(const Comparison& comparison, Energy energy) {
 }
 
 MetricValue momentum_error(const Comparison& comparison) {
-  if (!comparison.has_velocities()) return not_measured("The history has no velocities.");
+  if (!comparison.has_velocities()) return not_measured(Comparison::no_velocities);
   const auto& mass = comparison.problem().system.mass;
   const Eigen::VectorXd columns = mass.colwise().sum();
   const auto dof = comparison.dof();
@@ -73,7 +73,7 @@ MetricValue penetration(const Comparison& comparison) {
 // In the earlier half impacts that are late, or the last of many, may still come.
 MetricValue rest_error(const Comparison& comparison, Rest rest) {
   if (rest == Rest::speed && !comparison.has_velocities())
-    return not_measured("The history has no velocities.");
+    return not_measured(Comparison::no_velocities);
   const auto& history = comparison.history();
   const auto dof = Eigen::Index(comparison.dof());
   double worst = 0.0;

@@ -125,8 +125,8 @@ record::Sheet list_diagnoses() {
     return text.empty() ? record::Cell{} : record::Cell{std::string(text)};
   };
   for (const auto& row : diagnose::causes())
-    sheet.rows.push_back({std::string(row.code.name()), cell(row.unit), cell(row.value),
-                          diagnose::meaning_of(row)});
+    sheet.rows.push_back(
+        {std::string(row.code.name()), cell(row.unit), cell(row.value), diagnose::meaning_of(row)});
   return sheet;
 }
 

@@ -97,7 +97,7 @@ bool last_true_is_alone(const Comparison& comparison, std::span<const Jump> jump
 }
 
 std::string graph_objection(const Comparison& comparison) {
-  if (!comparison.has_velocities()) return "The history has no velocities.";
+  if (!comparison.has_velocities()) return Comparison::no_velocities;
   for (const double scale : comparison.v_envelope())
     if (!(scale > 0.0)) return "A mass has no velocity envelope to divide by.";
   return comparison.objection_to_sparse_rows();

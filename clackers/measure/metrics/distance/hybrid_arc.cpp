@@ -12,7 +12,7 @@ namespace clackers::measure {
 namespace {
 
 std::string objection_to_arcs(const Comparison& comparison) {
-  if (!comparison.has_velocities()) return "The history has no velocities.";
+  if (!comparison.has_velocities()) return Comparison::no_velocities;
   for (std::size_t i = 0; i < comparison.dof(); ++i)
     if (!(comparison.u_envelope()[i] > 0.0 && comparison.v_envelope()[i] > 0.0))
       return fmt::format("The reference motion of mass {} has no extent to divide by.", i + 1);

@@ -17,7 +17,7 @@ bool reverses_all(const model::MotionImpact& impact) {
 }
 
 std::string objection_to_unfolding(const Comparison& comparison) {
-  if (!comparison.has_velocities()) return "The history has no velocities.";
+  if (!comparison.has_velocities()) return Comparison::no_velocities;
   const auto& contacts = comparison.problem().contacts;
   if (contacts.size() != 1) return "Unfolding is defined for exactly one contact.";
   if (contacts.front().restitution != 1.0)
@@ -94,7 +94,7 @@ MetricValue unfolded_velocity_error(const Comparison& comparison) {
 }
 
 MetricValue jump_invariant_distance(const Comparison& comparison) {
-  if (!comparison.has_velocities()) return not_measured("The history has no velocities.");
+  if (!comparison.has_velocities()) return not_measured(Comparison::no_velocities);
   if (comparison.problem().contacts.empty()) return not_measured("The problem has no contact.");
   const auto u_scale = comparison.u_envelope(), v_scale = comparison.v_envelope();
   if (!all_positive(u_scale) || !all_positive(v_scale))

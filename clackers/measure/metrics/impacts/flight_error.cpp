@@ -149,7 +149,7 @@ MetricValue flight_u_error(const Comparison& comparison) {
 }
 
 MetricValue flight_v_error(const Comparison& comparison) {
-  if (!comparison.has_velocities()) return not_measured("The history has no velocities.");
+  if (!comparison.has_velocities()) return not_measured(Comparison::no_velocities);
   return worst(comparison, &FlightError::v);
 }
 
