@@ -295,7 +295,7 @@ class Impacts(CommandTest):
         self.assertEqual(self.rows_of("respond", "sdof", "--impacts"), [])
         for case, end in (("sdof", "20"), ("stop", "0.5")):
             self.assertEqual(self.good("respond", case, "--set", f"t_end={end}", "--impacts"),
-                             f"Impacts of {case}: none until the end of its run, {end} s\n")
+                             f"Impacts of {case}: none until the end of its run at {end} s\n")
 
 
 class Quantities(CommandTest):

@@ -21,7 +21,7 @@ class DigitRows : public record::RowSource {
       : rows_(std::move(rows)),
         digits_(*test_case.motion, digits),
         columns_(rows_->columns()),
-        title_(fmt::format("{} to {} digits", rows_->title(), digits)),
+        title_(fmt::format("{}, {} digits", rows_->title(), digits)),
         about_(about) {
     for (auto& column : columns_)
       if (column.kind == record::ColumnKind::real) column.kind = record::ColumnKind::any;
