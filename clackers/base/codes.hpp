@@ -12,8 +12,7 @@ namespace clackers {
 struct CodeEntry {
   std::string_view name;  ///< kebab-case, never reused for another meaning
   std::string_view kind;  ///< "refusal", "failure", "behaviour", "reason", "diagnosis" or "verdict"
-  /// What happened and what to do about it; of a diagnosis diagnose::Cause has the cure.
-  std::string_view meaning;
+  std::string_view meaning;  ///< what happened and, but for a diagnosis, what to do about it
 };
 
 // clang-format off
