@@ -24,10 +24,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"undecided", "behaviour",
      "These runs are not enough for a verdict. The message says what to change."},
     {"contact-stiffness", "reason",
-     "The floor is the model error of a compliant law. "
-     "Of contacts, which last a contact time instead of an instant, a larger contact stiffness lowers it; "
-     "of dry friction, which creeps instead of sticking, a smaller width (penalty:width=VALUE) does. "
-     "Both need smaller steps."},
+     "The floor is the model error of a compliant law: a larger contact stiffness lowers it, of dry friction, "
+     "which creeps instead of sticking, a smaller width (penalty:width=VALUE). Both need smaller steps."},
     {"tolerance-floor", "reason",
      "The floor is an iteration tolerance of the method; tighten it."},
     {"unexplained-floor", "reason",
@@ -253,7 +251,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
     {"time-shifted", "diagnosis",
      "The history is the right motion at other times, by a constant number of steps or seconds."},
     {"time-unit", "diagnosis",
-     "The times are in another unit than seconds."},
+     "Times are those of the case times one factor: another unit, or a clock that is too fast or too slow."},
     {"time-drifts", "diagnosis",
      "The printed times drift away from a grid of equal steps, as sums of rounded steps do."},
     {"unit-scaled", "diagnosis",
