@@ -54,8 +54,8 @@ class ImpactRows : public record::NumberRows {
     if (accumulates(motion_))
       return fmt::format("Impacts of {}: infinitely many; those that are resolved{}", name_, note);
     if (total_ > 0) return fmt::format("Impacts of {}{}{}", name_, note, more);
-    return fmt::format("Impacts of {}: none until the end of its run at {} s{}", name_, motion_.end(),
-                       more);
+    return fmt::format("Impacts of {}: none until the end of its run at {} s{}", name_,
+                       motion_.end(), more);
   }
   const std::vector<record::Column>& columns() const override { return columns_; }
 
