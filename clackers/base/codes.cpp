@@ -266,6 +266,8 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "The velocities belong to times half a step away, as a leapfrog scheme has them."},
     {"velocity-order-lower", "diagnosis",
      "The velocities converge at a lower order than the displacements."},
+    {"velocities-differ", "diagnosis",
+     "The velocities do not converge to the true ones, while the displacements beside them do."},
     {"starts-at-rest", "diagnosis",
      "The velocities start at zero, where those of the case do not."},
     {"impact-missed", "diagnosis",

@@ -39,7 +39,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "restitution-threshold", "energy-gained-at-impacts", "restitution-scatters", "force-step", "event-interpolated", "fixed-internal-step",
     "damping-changes-at-impact", "gap-differs", "parameter-differs",
     "time-shifted", "time-unit", "time-drifts", "unit-scaled", "columns-exchanged",
-    "masses-exchanged", "sign-reversed", "velocity-at-half-steps", "velocity-order-lower",
+    "masses-exchanged", "sign-reversed", "velocity-at-half-steps", "velocity-order-lower", "velocities-differ",
     "starts-at-rest", "impact-missed", "impact-doubled", "impact-impulse-wrong",
     "impact-at-step-end", "impact-interpolated", "impact-tolerance", "acceleration-not-renewed", "contact-compliant",
     "contact-in-tension", "output-offset", "output-drifts", "step-without-effect", "steps-contradict-rows", "odd-file", "single-precision", "noise-floor", "commensurate-steps",

@@ -24,12 +24,6 @@ bool is_of_digits(const Diagnosis& found) {
                                                  found.code == Code("single-precision").name());
 }
 
-// What right methods have as well; it does not lead to another motion.
-bool is_of_right_methods(const Diagnosis& found) {
-  return found.code == Code("impact-at-step-end").name() ||
-         found.code == Code("impact-tolerance").name() || found.code == Code("period-error").name();
-}
-
 // The same fault of another mass, contact or link is another cause.
 bool is_same(const Diagnosis& one, const Diagnosis& other) {
   const auto same_number = [&](const char* name) {

@@ -19,8 +19,9 @@ struct CaseParameter {
   std::string name;
   double value = 0.0;
   std::string unit{};
-  bool is_setting =
-      true;  ///< of the case by its name, as --set takes it; not a number of a contact
+  /// Of the case by its name, as --set takes it; not a number of a contact.
+  bool is_setting = true;
+  int gap_of = -1;  ///< the contact whose gap it is, from 0
 };
 
 /// The motion of the case with these parameters in place of its own; nullptr where they are not

@@ -38,6 +38,10 @@ constexpr auto all_causes = std::to_array<Cause>({
      "order of the velocities",
      "Velocities converge with order {value}[, displacements with {expected}]",
      "check how velocities are updated or printed."},
+    {"velocities-differ", Group::output, Effect::other_system, "1",
+     "velocities of the file over the true ones",
+     "Velocities do not converge to the true ones[, they are {value} times as large], while displacements do",
+     "check how velocities are computed and printed."},
     {"printed-digits", Group::other, Effect::method, "1",
      "significant digits",
      "Printed digits limit the error[, {digits} in {text}][, and alone may make {floor}]",
@@ -125,7 +129,7 @@ constexpr auto all_causes = std::to_array<Cause>({
     {"momentum-not-kept", Group::system, Effect::other_system, "1",
      "part of the change of momentum that no impulse along the contact makes",
      "Impacts[ of contact {contact}] do not keep momentum: {percent} of its change is no impulse along the contact",
-     "let the impulse act on both masses, with opposite signs."},
+     "let the impulse act on both masses, with opposite signs, and check the masses."},
     {"damping-changes-at-impact", Group::system, Effect::other_system, "1",
      "damping after the first impact over that before",
      "After the first impact damping is another[, {value} times that before]",
@@ -241,6 +245,13 @@ const Cause* find_cause(std::string_view code) {
 }
 
 bool is_other_system(const Diagnosis& found) { return surely_has(found, Effect::other_system); }
+
+bool is_of_right_methods(const Diagnosis& found) {
+  static constexpr auto codes = std::to_array<Code>(
+      {"impact-at-step-end", "impact-tolerance", "period-error", "numerical-damping", "force-step",
+       "unstable-coarse-steps", "commensurate-steps"});
+  return std::ranges::find(codes, found.code, &Code::name) != codes.end();
+}
 
 bool is_noise(const Diagnosis& found) { return surely_has(found, Effect::noise); }
 

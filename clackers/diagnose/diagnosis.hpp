@@ -107,6 +107,9 @@ inline constexpr double sure = 0.9;
 /// Whether a cause that is sure means another system than the case.
 bool is_other_system(const Diagnosis& found);
 
+/// Whether right methods have it as well, such as those of first order: it leads to no other motion.
+bool is_of_right_methods(const Diagnosis& found);
+
 /// Whether a cause that is sure means that a floor is noise, not another motion.
 bool is_noise(const Diagnosis& found);
 

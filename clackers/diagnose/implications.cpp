@@ -99,6 +99,10 @@ const std::vector<Implication>& implications() {
       {{"output-resampled"},
        {"velocity-order-lower", "impact-interpolated", "impact-at-step-end", "contact-in-tension",
         "noise-floor"}},
+      // Impacts at steps would make displacements of order one as well.
+      {{"velocity-order-lower"},
+       {"impact-at-step-end", "impact-interpolated", "restitution-scatters", "restitution-varies",
+        "restitution-differs", "momentum-not-kept", "contact-in-tension"}},
       // The velocity of a row at an impact is either limit.
       {{"commensurate-steps"}, {"velocity-order-lower"}},
       {{"printed-digits"}, {"noise-floor", "impact-tolerance"}},

@@ -110,8 +110,11 @@ std::string word(std::string_view name, const Diagnosis& cause) {
   if (name == "shift") return shift(cause);
   if (name == "late") return cause.value > 0.0 ? "late" : "early";
   if (name == "later") return cause.value > 0.0 ? "later" : "earlier";
-  if (name == "impacts" && std::isnan(cause.value) && cause.fact("share") == 1.0)
-    return "All impacts are";
+  if (name == "impacts" && std::isnan(cause.value) && cause.fact("share") == 1.0) {
+    const double contact = cause.fact("contact");
+    return std::isnan(contact) ? "All impacts are"
+                               : fmt::format("All impacts of contact {} are", contact);
+  }
   if (name == "impacts") return fmt::format("Impact {} is", plain(cause.value, 9));
   if (name == "number")
     return plain(std::isnan(cause.value) ? cause.fact("impact") : cause.value, 9);

@@ -96,13 +96,17 @@ std::vector<RunTask> SubjectStudy::to_observe() const {
 }
 
 double SubjectStudy::expected_seconds(std::span<const RunTask> tasks, int threads) const {
+  // Failed runs are short, and those of an earlier call have no time.
+  const auto is_timed = [](const Made& made) {
+    return made.measured.seconds > 0.0 && made.measured.run.score.finished;
+  };
   long long longest = 0;
   for (const auto& [resolution, made] : runs_)
-    if (made.measured.seconds > 0.0) longest = std::max(longest, made.run.steps);
+    if (is_timed(made)) longest = std::max(longest, made.run.steps);
   // Those of at least half the steps of the longest run; short ones are timed several times.
   double seconds = 0.0, steps = 0.0;
   for (const auto& [resolution, made] : runs_)
-    if (made.measured.seconds > 0.0 && 2 * made.run.steps > longest) {
+    if (is_timed(made) && 2 * made.run.steps > longest) {
       seconds += made.measured.seconds;
       steps += double(made.run.steps);
     }

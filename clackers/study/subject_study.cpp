@@ -161,8 +161,8 @@ void SubjectStudy::decide() {
     histories = histories.subspan(std::size_t(others - observations_.begin()));
   }
   auto limit = diagnose::limit_of(histories, problem_.problem.problem, motion);
-  // What a solver with tolerances keeps fixed, as an absolute one, ends in so small an error.
-  constexpr double of_fixed_tolerances = 1e-5;
+  // What a solver with tolerances keeps fixed, as an absolute one, may end in such an error.
+  constexpr double of_fixed_tolerances = 1e-2;
   if (by_tolerance() && limit.distance < of_fixed_tolerances) limit.wrong = false;
   facts.wrong_limit = !is_method() && limit.wrong;
   auto& assessment = subject_.assessment;

@@ -141,7 +141,37 @@ TEST(FileCauses, NamesVelocitiesOfALowerOrder) {
       files.velocity.order = lower;
       files.velocity.on_envelope = true;
       EXPECT_EQ(codes(file_causes(files.question())), "");
+      files.velocity.on_envelope = false;
+      files.displacement = {.behaviour = Behaviour::exact};
+      const auto of_exact = file_causes(files.question());
+      ASSERT_EQ(codes(of_exact), "velocity-order-lower");
+      EXPECT_TRUE(std::isnan(of_exact[0].fact("expected")));
     }
+}
+
+TEST(FileCauses, NamesVelocitiesThatStayAwayFromTheTrueOnes) {
+  const auto causes_of = [](auto changed, std::initializer_list<double> steps) {
+    Files files{cases::make("synchronized-pair", {{"X", 5.0}, {"r", 2.0}})};
+    for (const double h : steps) {
+      auto rows = exact_rows(files.problem, h);
+      for (std::size_t i = std::size_t(rows.dof); i < rows.v.size(); ++i)
+        rows.v[i] = changed(rows.v[i], h);
+      files.add(rows, h);
+    }
+    return file_causes(files.question());
+  };
+  for (const double factor : {0.9, 0.999, 1.03}) {
+    const auto found = causes_of([&](double v, double) { return factor * v; }, {0.04, 0.02, 0.01});
+    ASSERT_EQ(codes(found), "velocities-differ") << factor;
+    EXPECT_NEAR(found[0].value, factor, 1e-9);
+    EXPECT_TRUE(is_other_system(found[0]));
+  }
+  const auto offset = causes_of([](double v, double) { return v + 1e-3; }, {0.04, 0.02, 0.01});
+  ASSERT_EQ(codes(offset), "velocities-differ");
+  EXPECT_TRUE(std::isnan(offset[0].value));
+  // What falls with the step, or is there at one step alone, is no other velocity.
+  EXPECT_EQ(codes(causes_of([](double v, double h) { return v + h; }, {0.04, 0.02, 0.01})), "");
+  EXPECT_EQ(codes(causes_of([](double v, double) { return 0.9 * v; }, {0.01})), "");
 }
 
 }  // namespace

@@ -135,6 +135,15 @@ std::string reversed_columns(const Reading& reading, std::size_t masses) {
   return names;
 }
 
+double factor_of(std::span<const double> numbers, std::span<const double> reference) {
+  double product = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    product += numbers[i] * reference[i];
+    square += reference[i] * reference[i];
+  }
+  return square > 0.0 ? product / square : 1.0;
+}
+
 model::Trajectory reference_rows(const model::Motion& motion, std::span<const double> times,
                                  bool with_v) {
   model::Trajectory rows;

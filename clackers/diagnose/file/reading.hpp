@@ -46,6 +46,9 @@ std::string columns_option(const Reading& reading, const std::vector<std::string
 /// The names of the quantities with a negative factor: "u2,v2".
 std::string reversed_columns(const Reading& reading, std::size_t masses);
 
+/// The factor of numbers over those of the reference in the sense of least squares.
+double factor_of(std::span<const double> numbers, std::span<const double> reference);
+
 /// The motion at these times, right limits; times outside [0, end] are moved to its ends.
 model::Trajectory reference_rows(const model::Motion& motion, std::span<const double> times,
                                  bool with_v = true);

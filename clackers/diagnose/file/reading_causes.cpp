@@ -15,16 +15,6 @@ constexpr double visible = 0.05, acceptable = 0.1, least_reading_gain = 10.0;
 
 double whole(const RowDistance& distance) { return std::max(distance.u, distance.v); }
 
-// The factor of numbers over the reference in the sense of least squares.
-double factor_of(const std::vector<double>& numbers, const std::vector<double>& reference) {
-  double product = 0.0, square = 0.0;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    product += numbers[i] * reference[i];
-    square += reference[i] * reference[i];
-  }
-  return square > 0.0 ? product / square : 1.0;
-}
-
 struct ReadingCandidate {
   Reading reading;
   Diagnosis cause;

@@ -107,18 +107,51 @@ std::optional<Diagnosis> of_lower_order(const DiagnosisInput& question) {
   constexpr double least_difference = 0.6, whole = 0.25;
   const auto& u = question.displacement;
   const auto& v = question.velocity;
-  const bool lines = u.has_line && v.has_line && !u.on_envelope && !v.on_envelope;
-  const bool converge = (u.behaviour == Behaviour::proper || u.behaviour == Behaviour::reduced) &&
-                        (v.behaviour == Behaviour::proper || v.behaviour == Behaviour::reduced);
-  if (!lines || !converge || question.by_tolerance) return {};
+  const auto has_order = [](const judge::LadderFit& fit) {
+    return fit.has_line && !fit.on_envelope &&
+           (fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::reduced);
+  };
+  const bool is_exact = u.behaviour == Behaviour::exact;
+  if (!has_order(v) || question.by_tolerance || !(is_exact || has_order(u))) return {};
   const double difference = u.order - v.order;
-  if (!(difference > least_difference + u.spread + v.spread)) return {};
+  if (!is_exact && !(difference > least_difference + u.spread + v.spread)) return {};
   if (std::abs(v.order - std::round(v.order)) > whole + v.spread) return {};
   Diagnosis cause;
   cause.code = "velocity-order-lower";
   cause.value = v.order;
   cause.confidence = 0.85;
-  cause.evidence = {{"order", v.order}, {"uncertainty", v.spread}, {"expected", u.order}};
+  cause.evidence = {{"order", v.order}, {"uncertainty", v.spread}};
+  if (!is_exact) cause.evidence.push_back({"expected", u.order});
+  return cause;
+}
+
+// v that stays away from the true one, by the same in files of other steps, where u comes near it.
+std::optional<Diagnosis> of_no_order(const std::vector<FileSample>& files) {
+  constexpr double visible = 1e-4, small_part = 0.05, other_step = 1.9, same = 0.2;
+  std::vector<const FileSample*> near;
+  for (const auto& file : files) {
+    const auto& off = file.distance();
+    if (file.has_v() && off.v > visible && off.u < small_part * off.v) near.push_back(&file);
+  }
+  if (near.empty() || near.front() != &files.front()) return {};
+  const auto &finest = files.front(), &coarsest = *near.back();
+  const double v = finest.distance().v;
+  if (!(coarsest.history().facts.step > other_step * finest.history().facts.step) ||
+      std::abs(coarsest.distance().v / v - 1.0) > same)
+    return {};
+  Diagnosis cause;
+  cause.code = "velocities-differ";
+  cause.confidence = 0.95;
+  cause.evidence = {{"files", double(near.size())}};
+  const auto& rows = finest.rows();
+  const double factor =
+      factor_of(rows.v, reference_rows(finest.motion(), rows.t, finest.has_v()).v);
+  auto scaled = Reading::plain(2 * std::size_t(rows.dof));
+  std::fill(scaled.factor.begin() + rows.dof, scaled.factor.end(), factor);
+  if (finest.distance_of(read_as(scaled, rows)).v < same * v) {
+    cause.value = factor;
+    cause.unit = "1";
+  }
   return cause;
 }
 
@@ -128,6 +161,7 @@ std::vector<Diagnosis> velocity_causes(const std::vector<FileSample>& files,
                                        const DiagnosisInput& question) {
   if (auto cause = at_half_steps(files, question.by_tolerance)) return {*cause};
   if (auto cause = of_lower_order(question)) return {*cause};
+  if (auto cause = of_no_order(files)) return {*cause};
   return {};
 }
 

@@ -194,17 +194,16 @@ std::vector<Diagnosis> delay_causes(const DiagnosisInput& question,
   const bool has_rows_of_steps = std::ranges::all_of(question.histories, [](const auto& file) {
     return file.facts.spacing < most_steps_a_row * file.facts.step;
   });
-  std::optional<Diagnosis> found;
   const bool are_half = 2 * delayed.size() >= all.size();
-  if (!delayed.empty() && (are_half || delayed.size() >= enough)) {
-    if (const auto gap = common_gap(delayed)) {
-      found = other_gap(question, delayed, *gap);
-    } else {
-      // Delays of a tolerance ladder have no step to be measured in.
-      if (!question.by_tolerance && has_rows_of_steps && are_half) found = at_step(delayed);
-      if (!found) found = tolerance(question, delayed);
-    }
-  }
+  const bool are_late = !delayed.empty() && (are_half || delayed.size() >= enough);
+  const auto gap = are_late ? common_gap(delayed) : std::nullopt;
+  std::optional<Diagnosis> found;
+  if (gap) found = other_gap(question, delayed, *gap);
+  // Delays of a tolerance ladder have no step to be measured in.
+  if (!gap && are_half && are_late && has_rows_of_steps && !question.by_tolerance)
+    found = at_step(delayed);
+  if (!found) found = not_renewed(all);
+  if (!found && are_late && !gap) found = tolerance(question, delayed);
   std::erase_if(all, [](const auto& file) { return file.impacts.empty(); });
   if (!found && !question.by_tolerance) found = interpolated(question, all);
   if (found) return {*std::move(found)};

@@ -13,7 +13,8 @@ namespace clackers::diagnose {
 std::optional<Diagnosis> not_started(const DiagnosisInput& question);
 /// Steps after impacts that go on with the acceleration before them.
 std::optional<Diagnosis> not_renewed(const std::vector<LocatedImpacts>& files);
-/// gap-differs, impact-at-step-end, impact-tolerance or impact-interpolated: how late impacts come.
+/// gap-differs, impact-at-step-end, impact-tolerance or impact-interpolated, by how late impacts come, or
+/// not_renewed().
 std::vector<Diagnosis> delay_causes(const DiagnosisInput& question,
                                     std::vector<LocatedImpacts> all);
 

@@ -66,14 +66,16 @@ std::optional<Diagnosis> compliant(const DiagnosisInput& question,
   bool finest_resolves = false;
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::vector<double> one;
+    double fastest = 0.0;
     for (const auto& impact : files[i].impacts) {
       one.push_back(impact.duration);
-      speed = std::max(speed, impact.closing);
+      fastest = std::max(fastest, impact.closing);
     }
     finest_resolves =
         !one.empty() && measure::median(one) >= 3.0 * question.histories[i].facts.spacing;
     if (!finest_resolves) continue;
     ++resolving;
+    speed = fastest;
     durations.push_back(measure::median(one));
     std::ranges::copy(files[i].impacts, std::back_inserter(resolved.impacts));
   }
@@ -109,7 +111,6 @@ std::vector<Diagnosis> location_causes(const DiagnosisInput& question) {
   if (auto found = not_started(question)) return {*std::move(found)};
   if (auto found = missed(question)) return {*std::move(found)};
   if (auto found = compliant(question, all)) return {*std::move(found)};
-  if (auto found = not_renewed(all)) return {*std::move(found)};
   if (std::ranges::all_of(all, [](const auto& file) { return file.impacts.empty(); })) return {};
   return delay_causes(question, std::move(all));
 }

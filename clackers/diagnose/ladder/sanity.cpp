@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "clackers/base/constants.hpp"
 #include "clackers/diagnose/ladder/error_curve.hpp"
@@ -19,9 +20,10 @@ constexpr double same_roundings = 8.0;
 constexpr std::size_t least_common_rows = 10;
 constexpr double above_rounding = 10.0;
 
-// Whether two histories agree to rounding at all times that they have in common, of which there are
-// enough. The first row is the start of both.
-bool agree(const Observation& one, const Observation& other, const Eigen::VectorXd& scale) {
+// Whether two histories agree to rounding at all times that they have in common; nothing where these are
+// few. The first row is the start of both.
+std::optional<bool> agree(const Observation& one, const Observation& other,
+                          const Eigen::VectorXd& scale) {
   const auto &a = one.sample, &b = other.sample;
   const auto dof = std::size_t(a.dof);
   const double same_time = 1e-9 * std::min(one.facts.spacing, other.facts.spacing);
@@ -37,10 +39,12 @@ bool agree(const Observation& one, const Observation& other, const Eigen::Vector
         return false;
     ++common, ++i, ++j;
   }
-  return common >= least_common_rows;
+  if (common < least_common_rows) return {};
+  return true;
 }
 
-// The coarsest and the finest history and their neighbours: what agrees there agrees between.
+// The coarsest and the finest history agree with all others that have enough times in common with them,
+// and each with one at least: what agrees there agrees between.
 bool step_has_no_effect(const DiagnosisInput& question) {
   const auto& files = question.histories;
   const auto scale = question.motion.peak();
@@ -49,9 +53,17 @@ bool step_has_no_effect(const DiagnosisInput& question) {
                                  measure::relative_bound(question.motion, scale, finest.last)});
   if (!(ErrorCurve(finest, question.motion, scale.u).largest() > above_rounding * floor))
     return false;
-  const auto n = files.size();
-  return agree(files[0], files[1], scale.u) && agree(files[n - 2], files[n - 1], scale.u) &&
-         agree(files[0], files[n - 1], scale.u);
+  for (const auto* end : {&files.front(), &finest}) {
+    bool is_told = false;
+    for (const auto& other : files) {
+      if (&other == end) continue;
+      const auto same = agree(*end, other, scale.u);
+      if (same == false) return false;
+      is_told = is_told || same.has_value();
+    }
+    if (!is_told) return false;
+  }
+  return true;
 }
 
 // Whether rows stand the farther apart the smaller the step that was given for them.

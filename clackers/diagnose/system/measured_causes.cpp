@@ -9,7 +9,7 @@ namespace clackers::diagnose {
 
 std::vector<Diagnosis> flight_causes(const DiagnosisInput& question,
                                      model::SmoothSystem<>* solved) {
-  if (!is_elsewhere(question)) return {};
+  if (!question.problem.frictions.empty()) return {};
   const auto& finest = question.histories.back();
   const auto other = std::ranges::find_if(
       question.histories.rbegin(), question.histories.rend(), [&](const Observation& one) {
@@ -22,7 +22,8 @@ std::vector<Diagnosis> flight_causes(const DiagnosisInput& question,
   const FlightFits fits(finest, system, changes), others(*other, system, changes);
   if (!fits.known() || !others.known()) return {};
   const auto best = best_of(fits, changes);
-  if (!best) return {};
+  constexpr double sure_gain = 20.0;
+  if (!best || (best->gain < sure_gain && !is_elsewhere(question))) return {};
   const auto again = others.of(best->changes);
   if (again.values.size() == 0) return {};
   const double excess = fits.excess();
@@ -43,7 +44,7 @@ std::vector<Diagnosis> flight_causes(const DiagnosisInput& question,
     if (changes[change].cause.unit == "%" && values[0] < least_share) return {};
     found.push_back(diagnosis_by(changes[change], {values.data(), std::size_t(count)},
                                  std::max(apart, best->uncertainty[at])));
-    found.back().confidence = 0.95;
+    found.back().confidence = best->gain < sure_gain ? 0.85 : 0.95;
     found.back().evidence.insert(found.back().evidence.begin(), {"gain", best->gain});
     found.back().evidence.push_back({"files", 2.0});
     if (best->changes.size() > 1)

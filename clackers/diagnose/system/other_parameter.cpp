@@ -188,9 +188,31 @@ bool may_be_numerical(const ParameterFit& fit, const FitRows& rows,
          (distance < 0.5 * turn * turns && gain * turn < least_system_gain);
 }
 
-Diagnosis diagnosis_of_all(const std::vector<ParameterFit>& found) {
+bool has_impacts_of(int contact, const model::Motion& motion) {
+  constexpr long long most = 2000;
+  const auto count = std::min(motion.impact_count(motion.end()), most);
+  for (long long index = 1; index <= count; ++index)
+    if (motion.impact(index).contact == contact) return true;
+  return false;
+}
+
+// Whether the case has impacts at the contact whose gap this is, and none with the gap that was found.
+bool is_never_closed(const ParameterFit& fit, const DiagnosisInput& question) {
+  auto changed = fit.candidate->parameter;
+  if (changed.gap_of < 0) return false;
+  changed.value = fit.value;
+  return has_impacts_of(changed.gap_of, question.motion) &&
+         !has_impacts_of(changed.gap_of, *question.family.motion_of(std::array{changed}));
+}
+
+Diagnosis diagnosis_of_all(const std::vector<ParameterFit>& found, const DiagnosisInput& question) {
   const auto& best = found.front();
   const auto& parameter = best.candidate->parameter;
+  if (is_never_closed(best, question)) {
+    auto one = diagnosis_of(Code("impact-missed"), NAN, "1");
+    one.evidence = {{"contact", parameter.gap_of + 1.0}, {"share", 1.0}};
+    return one;
+  }
   if (best.candidate->is_clock) {
     auto one = diagnosis_of(Code("time-unit"), best.value, parameter.unit);
     one.evidence = {{"uncertainty", best.uncertainty}};
@@ -251,7 +273,7 @@ std::optional<Diagnosis> other_parameter(const DiagnosisInput& question) {
     return {};
   }
   if (fits.empty()) return {};
-  auto cause = diagnosis_of_all(fits);
+  auto cause = diagnosis_of_all(fits, question);
   const double least = files > 1.0 ? least_system_gain : least_gain_alone;
   cause.confidence = std::min(files > 1.0 ? 1.0 : 0.9, confidence_of(gain, least));
   cause.evidence.insert(cause.evidence.begin(), {"gain", gain});

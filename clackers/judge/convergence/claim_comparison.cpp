@@ -23,6 +23,14 @@ Verdict compare_order(const LadderFit& fit, double claimed, double tolerance) {
   return fit.spread > most * claimed ? Verdict::undecided : Verdict::agrees;
 }
 
+// Whether errors that fell along a line stop far above rounding, and nothing says why.
+bool ends_in_large_floor(const LadderFit& fit, const JudgeContext& facts) {
+  const bool is_unexplained =
+      fit.reason == Code("noise-floor").name() || fit.reason == Code("unexplained-floor").name();
+  return shows_a_line(fit) && fit.floor_step > 0.0 && fit.floor > large_error && is_unexplained &&
+         !facts.noise;
+}
+
 Verdict compare_floor(const LadderFit& fit, const Claim& claim, const JudgeContext& facts) {
   const bool has_floor =
       fit.behaviour == Behaviour::stagnating ||
@@ -71,6 +79,8 @@ Verdict compare(const LadderFit& fit, const Claim& claim, const JudgeContext& fa
   if (fit.reason == Code("printed-digits").name() && !fit.has_line) return Verdict::undecided;
   if (fit.behaviour == Behaviour::exact)
     return claim.behaviour == Behaviour::exact ? Verdict::agrees : Verdict::undecided;
+  const bool order_claimed = claim.order > 0.0 && claim.behaviour != Behaviour::divergent;
+  if (order_claimed && ends_in_large_floor(fit, facts)) return Verdict::undecided;
   const bool line = fit.behaviour == Behaviour::proper || fit.behaviour == Behaviour::reduced;
   const bool line_claimed =
       claim.behaviour == Behaviour::proper || claim.behaviour == Behaviour::reduced;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "clackers/base/codes.hpp"
+#include "clackers/base/constants.hpp"
 #include "clackers/judge/convergence/claim_comparison.hpp"
 #include "clackers/judge/convergence/fit/error_ladder.hpp"
 #include "clackers/judge/convergence/judge_steps.hpp"
@@ -57,13 +58,17 @@ bool stopped_by_printing(const LadderFit& fit, const measure::RunScore& finest,
 
 // Whether errors that grow as steps shrink are rounding: of a method that divides differences of displacements
 // by h squared, the square of the number of steps times 2^-52.
-bool is_growing_rounding(const LadderFit& fit, const measure::Ladder& ladder) {
+bool is_growing_rounding(const LadderFit& fit, const measure::Ladder& ladder,
+                         const JudgeContext& facts) {
   if (fit.reason != Code("error-growth").name() && fit.reason != Code("too-few-levels").name())
     return false;
-  return std::ranges::all_of(ladder, [](const measure::ScoreLevel& level) {
-    return std::ranges::all_of(level.runs, [](const measure::RunScore& run) {
-      const double steps = run.rounding_floor / 0x1p-52;
-      return run.finished && run.u_error <= rounding_slack * steps * run.rounding_floor;
+  return std::ranges::all_of(ladder, [&](const measure::ScoreLevel& level) {
+    return std::ranges::all_of(level.runs, [&](const measure::RunScore& run) {
+      // A floor of printed digits is that of no steps.
+      const double most = facts.finest ? double(facts.finest->rows) : infinity;
+      const double steps = std::min(run.rounding_floor / epsilon, most);
+      return run.finished &&
+             run.u_error <= rounding_slack * std::max(run.rounding_floor, steps * steps * epsilon);
     });
   });
 }
@@ -98,7 +103,7 @@ LadderFit behaviour_of(LadderFit fit, const measure::Ladder& ladder, const Claim
   const auto too_little = [](const measure::RunScore& run) {
     return run.energy_ratio < least_energy_ratio;
   };
-  if (claim.behaviour == Behaviour::exact && is_growing_rounding(fit, ladder)) {
+  if (claim.behaviour == Behaviour::exact && is_growing_rounding(fit, ladder, facts)) {
     fit.behaviour = Behaviour::exact;
     fit.reason.clear();
   } else if (open && !facts.wrong_limit && !of_another_model && !errors_fall(fit) &&

@@ -57,8 +57,9 @@ std::optional<Evidence> miscounted(const measure::Ladder& ladder, const LadderFi
   if (first == nullptr || fit.reason == Code("simultaneous-impacts").name()) return {};
   const bool may_scatter = claim.behaviour == Behaviour::irregular && fit.has_line;
   if (may_scatter && 2 * miscounting <= finished) return {};
-  const bool open =
-      of_behaviour == Verdict::undecided || (fit.has_line && fit.order < lowest_real_order);
+  const bool open = of_behaviour == Verdict::undecided ||
+                    (fit.has_line && fit.order < lowest_real_order) ||
+                    (may_scatter && fit.errors.back() > large_error);
   if (open && (!all_alike || fit.reason == Code("contact-not-resolved").name())) return {};
   return miscount(*first);
 }

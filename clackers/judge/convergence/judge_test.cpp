@@ -71,6 +71,15 @@ TEST(Judge, AnOrderOfLargeErrorsThatStillRisesIsUndecided) {
   EXPECT_EQ(judged(0.01).verdict, Verdict::disagrees);
 }
 
+// Errors of first order that end in a floor that nothing explains: of another system, or noise.
+TEST(Judge, ALineAboveALargeFloorIsUndecided) {
+  const auto judged = [](double floor) {
+    return judge(scores([=](double h) { return h + floor; }, {.levels = 12}), rough);
+  };
+  EXPECT_EQ(judged(0.0).verdict, Verdict::agrees);
+  EXPECT_EQ(judged(0.02).verdict, Verdict::undecided);
+}
+
 TEST(Judge, WhatIsClaimedAndFoundAgrees) {
   const auto found = judge(scores(power(2.0)), second);
   EXPECT_EQ(found.verdict, Verdict::agrees);
@@ -168,6 +177,13 @@ TEST(Judge, RoundingThatGrowsIsExactWhereThatIsClaimed) {
   EXPECT_EQ(judge(growing(1.0), exact).verdict, Verdict::agrees);
   EXPECT_EQ(judge(growing(100.0), exact).verdict, Verdict::disagrees);
   EXPECT_EQ(judge(growing(1.0), second).displacement.behaviour, Behaviour::divergent);
+  // A floor of printed digits is no number of steps.
+  auto printed = growing(1e4);
+  for (auto& level : printed)
+    for (auto& run : level.runs) run.rounding_floor = 1e-7;
+  JudgeContext file;
+  file.finest = HistoryFacts{.rows = 1000, .printed_floor = 1e-7};
+  EXPECT_NE(judge(printed, exact, file).verdict, Verdict::agrees);
   // Of coarse steps it may rise above the floor, below which it is then.
   const auto late = scores(
       [](double h) { return 0x1p-52 * (20.0 / h) * rounding_slack * std::pow(h / 0.02, 0.1); },

@@ -28,8 +28,17 @@ bool is_shown_cause(const record::Subject& subject, std::string_view code) {
 }
 
 const Diagnosis* deciding_cause(const record::Subject& subject) {
-  const bool has_failed = subject.assessment.reason == Code("run-failed").name();
-  return has_failed || subject.diagnoses.empty() ? nullptr : &subject.diagnoses.front();
+  if (subject.assessment.reason == Code("run-failed").name()) return nullptr;
+  // What right methods have as well contradicts no claim but one of more than first order, or of no floor.
+  const auto may_contradict = [&](const Diagnosis& cause) {
+    return cause.code == Code("impact-tolerance").name() ||
+           (subject.claim.order > 1.5 && (cause.code == Code("impact-at-step-end").name() ||
+                                          cause.code == Code("force-step").name()));
+  };
+  for (const auto& cause : subject.diagnoses)
+    if (!subject.claim.is_made() || !diagnose::is_of_right_methods(cause) || may_contradict(cause))
+      return &cause;
+  return nullptr;
 }
 
 std::string departure_text(const record::CaseRecord& problem) {

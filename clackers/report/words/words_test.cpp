@@ -395,6 +395,23 @@ TEST(VerdictLine, FailedRunsThatDecideStandBeforeCauses) {
   EXPECT_EQ(verdict_line(record).next, "clackers explain run-failed");
 }
 
+TEST(VerdictLine, NamesNoCauseThatTheClaimAllows) {
+  auto record = sample_check();
+  auto& subject = record.cases[0].subjects[0];
+  subject.assessment.verdict = Verdict::disagrees;
+  subject.claim = {Behaviour::irregular, 1.0, ""};
+  subject.diagnoses = {{"impact-at-step-end", 0.5, "steps", 0.95, {}, "end", ""},
+                       {"unstable-coarse-steps", 0.1, "s", 0.95, {}, "", ""}};
+  EXPECT_EQ(deciding_cause(subject), nullptr);
+  subject.claim = {Behaviour::proper, 2.0, ""};
+  EXPECT_EQ(deciding_cause(subject), subject.diagnoses.data());
+  std::ranges::reverse(subject.diagnoses);
+  EXPECT_EQ(deciding_cause(subject), &subject.diagnoses[1]);
+  subject.claim = {Behaviour::irregular, 1.0, ""};
+  subject.diagnoses.push_back({"mass-ratio-differs", 2.0, "%", 0.9, {}, "", ""});
+  EXPECT_EQ(deciding_cause(subject), &subject.diagnoses[2]);
+}
+
 TEST(VerdictLine, AnUndecidedMethodGetsTheNumberToType) {
   auto record = sample_record();
   record.interrupted = false;

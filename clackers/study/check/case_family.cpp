@@ -61,6 +61,7 @@ std::vector<ContactNumber> contact_numbers(const model::ImpactProblem<>& problem
     const auto& contact = problem.contacts[i];
     add(fmt::format("gap of contact {}", i + 1), contact.gap, "m",
         [i](auto& p, double value) { p.contacts[i].gap = value; });
+    all.back().parameter.gap_of = int(i);
     add(fmt::format("restitution of contact {}", i + 1), contact.restitution, "1",
         [i](auto& p, double value) { p.contacts[i].restitution = value; });
   }
