@@ -142,7 +142,8 @@ TEST(FileCauses, NamesVelocitiesOfALowerOrder) {
       files.velocity.on_envelope = true;
       EXPECT_EQ(codes(file_causes(files.question())), "");
       files.velocity.on_envelope = false;
-      files.displacement = {.behaviour = Behaviour::exact};
+      files.displacement.behaviour = Behaviour::exact;
+      files.displacement.has_line = false;
       const auto of_exact = file_causes(files.question());
       ASSERT_EQ(codes(of_exact), "velocity-order-lower");
       EXPECT_TRUE(std::isnan(of_exact[0].fact("expected")));
@@ -163,7 +164,7 @@ TEST(FileCauses, NamesVelocitiesThatStayAwayFromTheTrueOnes) {
   for (const double factor : {0.9, 0.999, 1.03}) {
     const auto found = causes_of([&](double v, double) { return factor * v; }, {0.04, 0.02, 0.01});
     ASSERT_EQ(codes(found), "velocities-differ") << factor;
-    EXPECT_NEAR(found[0].value, factor, 1e-9);
+    EXPECT_NEAR(found[0].value, factor, 1e-5);
     EXPECT_TRUE(is_other_system(found[0]));
   }
   const auto offset = causes_of([](double v, double) { return v + 1e-3; }, {0.04, 0.02, 0.01});

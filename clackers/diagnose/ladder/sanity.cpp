@@ -23,7 +23,7 @@ constexpr double above_rounding = 10.0;
 // Whether two histories agree to rounding at all times that they have in common; nothing where these are
 // few. The first row is the start of both.
 std::optional<bool> agree(const Observation& one, const Observation& other,
-                          const Eigen::VectorXd& scale) {
+                          const model::Kinematics& scale) {
   const auto &a = one.sample, &b = other.sample;
   const auto dof = std::size_t(a.dof);
   const double same_time = 1e-9 * std::min(one.facts.spacing, other.facts.spacing);
@@ -33,10 +33,12 @@ std::optional<bool> agree(const Observation& one, const Observation& other,
       ++(a.t[i] < b.t[j] ? i : j);
       continue;
     }
-    for (std::size_t mass = 0; mass < dof; ++mass)
-      if (std::abs(a.u[i * dof + mass] - b.u[j * dof + mass]) >
-          same_roundings * epsilon * scale[Eigen::Index(mass)])
-        return false;
+    for (std::size_t mass = 0; mass < dof; ++mass) {
+      const auto of = Eigen::Index(mass);
+      const double allowed =
+          same_roundings * epsilon * scale.u[of] + 2.0 * std::abs(a.t[i] - b.t[j]) * scale.v[of];
+      if (std::abs(a.u[i * dof + mass] - b.u[j * dof + mass]) > allowed) return false;
+    }
     ++common, ++i, ++j;
   }
   if (common < least_common_rows) return {};
@@ -57,7 +59,7 @@ bool step_has_no_effect(const DiagnosisInput& question) {
     bool is_told = false;
     for (const auto& other : files) {
       if (&other == end) continue;
-      const auto same = agree(*end, other, scale.u);
+      const auto same = agree(*end, other, scale);
       if (same == false) return false;
       is_told = is_told || same.has_value();
     }

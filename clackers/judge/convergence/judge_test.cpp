@@ -71,13 +71,16 @@ TEST(Judge, AnOrderOfLargeErrorsThatStillRisesIsUndecided) {
   EXPECT_EQ(judged(0.01).verdict, Verdict::disagrees);
 }
 
-// Errors of first order that end in a floor that nothing explains: of another system, or noise.
-TEST(Judge, ALineAboveALargeFloorIsUndecided) {
-  const auto judged = [](double floor) {
-    return judge(scores([=](double h) { return h + floor; }, {.levels = 12}), rough);
+// Errors of first order that end in a rough floor which nothing explains: noise, or another system.
+TEST(Judge, ALineAboveALargeRoughFloorIsUndecided) {
+  const auto judged = [](double floor, int levels) {
+    const auto error = [=](double h) { return std::max(0.2 * h, floor); };
+    return judge(scores(error, {.levels = levels, .coarsest = 3.2}), rough);
   };
-  EXPECT_EQ(judged(0.0).verdict, Verdict::agrees);
-  EXPECT_EQ(judged(0.02).verdict, Verdict::undecided);
+  const auto small = judged(0.0184, 6), large = judged(0.045, 6);
+  EXPECT_GT(large.displacement.floor_step, 0.0);
+  EXPECT_EQ(small.verdict, Verdict::agrees);
+  EXPECT_EQ(large.verdict, Verdict::undecided);
 }
 
 TEST(Judge, WhatIsClaimedAndFoundAgrees) {
