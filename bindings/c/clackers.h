@@ -129,7 +129,9 @@ CLACKERS_API clackers_status clackers_motion_end(const clackers_motion* motion, 
 
 /**
  * The states at times[0], ..., times[count - 1], in any order, each from 0 to the end. State i of
- * mass j is written to [i * dof + j]; capacity must be at least count * dof. Allocates nothing.
+ * mass j is written to [i * dof + j]; capacity must be at least count * dof. Allocates nothing. A pair
+ * at 320 equidistant times or more takes a quarter of the time; one value in ten thousand then has another
+ * last bit.
  */
 CLACKERS_API clackers_status clackers_motion_sample(const clackers_motion* motion,
                                                     const double* times, size_t count,

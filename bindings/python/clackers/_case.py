@@ -197,7 +197,8 @@ class Case:
         Parameters
         ----------
         t : array_like
-            Times [s], each in [0, end], in any order; a number is one time.
+            Times [s], each in [0, end], in any order; a number is one time. A pair at 320 equidistant times or more
+            takes a quarter of the time; one value in ten thousand then has another last bit.
         side : {"right", "left"}
             Which of two flights is evaluated where a time is the double nearest to an impact.
         out : tuple of ndarray, optional

@@ -53,17 +53,27 @@ void ClosedForm::sample(std::span<const double> times, Side side, model::SampleB
     const auto at = i * masses;
     sample_one(times[i], side, &out.u[at], &out.v[at], out.a.empty() ? nullptr : &out.a[at]);
   };
-  // A vector takes as long as some single numbers.
+  // A vector takes as long as some single numbers, a block as long as `most_alone`.
   constexpr std::size_t few = 3;
+  constexpr int most_alone = 8;
+  StepTable table;
+  bool steps = tabulate_steps(c_, times, table);
+  std::uint64_t left_out_of[most_anchors];
   for (std::size_t i = 0; i < times.size(); i += most_in_block) {
     const auto count = std::min(most_in_block, times.size() - i);
     if (count <= few) {
       for (std::size_t j = i; j < i + count; ++j) evaluate(j);
       continue;
     }
-    const auto at = i * masses;
-    auto left_out = sample_block(c_, &times[i], count, &out.u[at], &out.v[at],
-                                 out.a.empty() ? nullptr : &out.a[at]);
+    const auto at = i * masses, anchor = i / most_in_block % most_anchors;
+    double* const a = out.a.empty() ? nullptr : &out.a[at];
+    if (steps && anchor == 0)
+      steps = sample_steps(c_, table, &times[i],
+                           std::min(most_anchors, (times.size() - i) / most_in_block), &out.u[at],
+                           &out.v[at], a, left_out_of);
+    auto left_out = steps && count == most_in_block ? left_out_of[anchor] : ~std::uint64_t(0);
+    if (std::popcount(left_out) > most_alone)
+      left_out = sample_block(c_, &times[i], count, &out.u[at], &out.v[at], a);
     for (; left_out != 0; left_out &= left_out - 1)
       evaluate(i + static_cast<std::size_t>(std::countr_zero(left_out)));
   }

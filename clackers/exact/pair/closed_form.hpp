@@ -42,8 +42,10 @@ class ClosedForm : public model::Motion {
   int dof() const override { return static_cast<int>(c_.masses.size()); }
   double end() const override { return c_.end; }
 
-  /// With the widest vectors of the processor (sampling.hpp); the same bits on every processor and
-  /// however many times there are.
+  /// With the widest vectors of the processor; the same bits on every processor and however many
+  /// times there are (sampling.hpp). But 320 times or more that begin equidistant, to rounding, are
+  /// evaluated by steps where they stay so (step_sampling.cpp), in a quarter of the time: one value
+  /// in ten thousand then has another last bit than that of the time by itself.
   void sample(std::span<const double> times, model::Side side,
               model::SampleBuffers out) const override;
 
@@ -56,7 +58,7 @@ class ClosedForm : public model::Motion {
   /// 0.51 units of 2^-52 of the envelope, and one subnormal spacing (5e-324). Of the first, 1/2 is
   /// the rounding of the result, which never exceeds the envelope; the cosine and sine add
   /// sqrt(2) 2^-63, the power 2^-66, the phase at most pi X 2^-100 < 2^-68, all double-double steps
-  /// less than 2^-98 together: below 0.503. The rest covers the rounding of the envelope itself.
+  /// less than 2^-98 together: below 0.503, by steps as well. The rest covers the rounding of the envelope itself.
   model::Kinematics error_bound(double t) const override;
 
   /// The k with t_k <= t, decided for the true t_k. With eta = 0 the masses stay at rest after the

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "clackers/numerics/double_double.hpp"
@@ -66,5 +67,34 @@ std::uint64_t flight_block(const FlightConstants& c, const double* times, std::s
 /// single numbers give.
 std::uint64_t sample_block(const FlightConstants& c, const double* times, std::size_t count,
                            double* u, double* v, double* a);
+
+/// The factors r = E exp(i p Omega t) by which a motion turns in 0 to most_in_block - 1 equal steps.
+struct StepTable {
+  using Lanes = FlightBlock::Lanes;
+  /// Both parts of r as a multiple of 2^-26 and its rest, and their derivatives [1/s].
+  struct Factor {
+    alignas(64) Lanes cosine, sine, cosine_rest, sine_rest, cosine_rate, sine_rate;
+  };
+  alignas(64) Lanes t;  ///< [s]
+  alignas(64) Lanes y;  ///< half turns beyond a whole number, less 1/2
+  double whole;         ///< that number for all steps
+  double most_delta;    ///< how far a time may be from its place [s]
+  Factor factors[2];    ///< of each mass
+};
+
+/// Fewer times are not worth a table, which takes as long as 64 times by themselves.
+inline constexpr std::size_t least_equidistant = 320;
+/// How many blocks sample_steps() takes at most.
+inline constexpr std::size_t most_anchors = 8;
+
+/// Fills the table where `times` begin equidistant but for rounding, the motion decays by no more than
+/// 2^-12 in a block and does not come to rest. Returns whether it did.
+bool tabulate_steps(const FlightConstants& c, std::span<const double> times, StepTable& table);
+
+/// As sample_block(), for `blocks` times most_in_block times that go on in steps of the table from the
+/// first of each block: left_out[i] is of block i. Times out of place are left out. Returns whether
+/// in some block most are in place.
+bool sample_steps(const FlightConstants& c, const StepTable& table, const double* times,
+                  std::size_t blocks, double* u, double* v, double* a, std::uint64_t* left_out);
 
 }  // namespace clackers::exact

@@ -148,21 +148,25 @@ TEST_P(Sampling, RefusesATimeOutsideWhereverItStands) {
 
 TEST_P(Sampling, WritesOnlyIntoItsBuffersAndAllocatesNothing) {
   const SynchronizedPair motion({.eta = 0.9, .t_end = 9000.0});
-  std::vector<double> times(67);
-  for (std::size_t i = 0; i < times.size(); ++i) times[i] = 130.0 * double(i);
-  times[7] = motion.impact(1).t;
-  constexpr double untouched = 12345.0;
-  States out(2 * 67 + 20);
-  for (auto* part : {&out.u, &out.v, &out.a}) part->assign(part->size(), untouched);
-  const auto inner = [](std::vector<double>& x) { return std::span(x).subspan(10, x.size() - 20); };
-  allocations = 0;
-  is_counting = true;
-  motion.sample(times, Side::right, {inner(out.u), inner(out.v), inner(out.a)});
-  is_counting = false;
-  EXPECT_EQ(allocations, 0);
-  for (const auto* part : {&out.u, &out.v, &out.a})
-    for (std::size_t i = 0; i < part->size(); ++i)
-      EXPECT_EQ((*part)[i] == untouched, i < 10 || i >= part->size() - 10) << i;
+  for (const auto& [count, step] : {std::pair{67u, 130.0}, {67u + least_equidistant, 0.1}}) {
+    std::vector<double> times(count);
+    for (std::size_t i = 0; i < times.size(); ++i) times[i] = step * double(i);
+    times[7] = motion.impact(1).t;
+    constexpr double untouched = 12345.0;
+    States out(2 * count + 20);
+    for (auto* part : {&out.u, &out.v, &out.a}) part->assign(part->size(), untouched);
+    const auto inner = [](std::vector<double>& x) {
+      return std::span(x).subspan(10, x.size() - 20);
+    };
+    allocations = 0;
+    is_counting = true;
+    motion.sample(times, Side::right, {inner(out.u), inner(out.v), inner(out.a)});
+    is_counting = false;
+    EXPECT_EQ(allocations, 0);
+    for (const auto* part : {&out.u, &out.v, &out.a})
+      for (std::size_t i = 0; i < part->size(); ++i)
+        EXPECT_EQ((*part)[i] == untouched, i < 10 || i >= part->size() - 10) << i;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, Sampling, testing::ValuesIn(numerics::simd::available_targets()),
