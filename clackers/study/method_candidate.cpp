@@ -169,6 +169,7 @@ std::optional<Measured> MethodCandidate::measured(model::Run& run, const RunTask
                              .states = task.run.tolerance > 0.0 || !problem_.states
                                            ? nullptr
                                            : problem_.states->of(task.run.step, task.run.steps),
+                             .steps = task.run.tolerance > 0.0 ? 0 : task.run.steps,
                              .scales = problem_.scales.get()});
   model::TrajectorySink stored(reports_impacts_);
   RunRecorder recorder(errors, task.wanted.metrics ? &stored : nullptr);

@@ -26,6 +26,7 @@ ErrorSink::ErrorSink(const model::Motion& reference, const model::ImpactProblem<
                      double step, const ErrorSinkOptions& options)
     : reference_(reference),
       dof_(std::size_t(reference.dof())),
+      start_(problem.start.t),
       step_(require_step(sink_name, step)),
       options_(options),
       contacts_(problem.contacts),
@@ -44,19 +45,41 @@ ErrorSink::ErrorSink(const model::Motion& reference, const model::ImpactProblem<
   require_positive(sink_name, "energy of the reference", energy);
 }
 
+// The states of the reference into u_reference_ and v_reference_. Returns whether the times are those expected.
+bool ErrorSink::copy_ahead(std::span<const double> times) {
+  for (std::size_t done = 0; done < times.size();) {
+    const auto first = (taken_ + done) % GridStates::most;
+    if (first == 0)
+      ahead_.fill(reference_, start_, step_, std::size_t(options_.steps), taken_ + done, 0);
+    const auto count = std::min(times.size() - done, ahead_.t.size() - first);
+    if (count == 0 || !ahead_.holds(first, times.subspan(done, count))) return false;
+    std::copy_n(&ahead_.u[first * dof_], count * dof_, &u_reference_[done * dof_]);
+    std::copy_n(&ahead_.v[first * dof_], count * dof_, &v_reference_[done * dof_]);
+    done += count;
+  }
+  return true;
+}
+
 StateRows ErrorSink::reference_at(std::span<const double> times) {
   const auto size = times.size() * dof_;
-  if (options_.states != nullptr && options_.states->holds(taken_, times)) {
-    const auto part = [&](const std::vector<double>& all) {
-      return std::span(all).subspan(taken_ * dof_, size);
-    };
-    return {part(options_.states->u), part(options_.states->v)};
+  const model::SampleBuffers out{{u_reference_.data(), size}, {v_reference_.data(), size}, {}};
+  if (options_.states != nullptr) {
+    if (options_.states->holds(taken_, times)) {
+      const auto part = [&](const std::vector<double>& all) {
+        return std::span(all).subspan(taken_ * dof_, size);
+      };
+      return {part(options_.states->u), part(options_.states->v)};
+    }
+  } else if (options_.steps > 0 && dof_ <= 2 && copy_ahead(times)) {
+    return {out.u, out.v};
   }
+  // A run that was at other times once is sampled at all that follow.
+  options_.states = nullptr;
+  options_.steps = 0;
   // start + n h may pass the end by a rounding of the product and one of the sum.
   const double end = reference_.end(), slack = 4.0 * std::numeric_limits<double>::epsilon() * end;
   for (std::size_t i = 0; i < times.size(); ++i)
     times_[i] = times[i] > end && times[i] <= end + slack ? end : times[i];
-  const model::SampleBuffers out{{u_reference_.data(), size}, {v_reference_.data(), size}, {}};
   reference_.sample({times_.data(), times.size()}, model::Side::right, out);
   return {out.u, out.v};
 }

@@ -19,8 +19,9 @@ struct ErrorSinkOptions {
   bool impacts_are_reported = true;  ///< false: the score has no impacts
   double contact_time = 0.0;         ///< of a compliant contact [s]
   int history_bins = 0;              ///< of the error history, 0 for none
-  /// The reference at the times to expect; null: at all times it is sampled.
+  /// The reference at the times to expect; null: it is sampled.
   const GridStates* states = nullptr;
+  long long steps = 0;  ///< equal steps of the run, the last of which ends at the end; 0: others
   const Scales* scales = nullptr;  ///< of the case, where they are known
 };
 
@@ -45,13 +46,15 @@ class ErrorSink : public model::Sink {
  private:
   void take_part(const model::SampleBlock& block, std::size_t from, std::size_t count);
   StateRows reference_at(std::span<const double> times);
+  bool copy_ahead(std::span<const double> times);
 
   const model::Motion& reference_;
   std::size_t dof_;
-  double step_;
+  double start_, step_;
   ErrorSinkOptions options_;
   std::vector<model::Contact<>> contacts_;
   std::size_t taken_ = 0;
+  GridStates ahead_;  ///< of a run of equal steps, those around the next state
   std::vector<double> times_, u_reference_, v_reference_, relative_;  ///< of one block
   Meter meter_;
   ImpactMatcher impacts_;

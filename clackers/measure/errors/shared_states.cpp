@@ -1,5 +1,6 @@
 #include "clackers/measure/errors/shared_states.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace clackers::measure {
@@ -7,6 +8,18 @@ namespace clackers::measure {
 bool GridStates::holds(std::size_t first, std::span<const double> times) const {
   return first + times.size() <= t.size() &&
          std::memcmp(&t[first], times.data(), times.size_bytes()) == 0;
+}
+
+void GridStates::fill(const model::Motion& reference, double start, double h, std::size_t steps,
+                      std::size_t first, std::size_t row) {
+  const auto dof = static_cast<std::size_t>(reference.dof());
+  t.resize(row + (first > steps ? 0 : std::min(most, steps + 1 - first)));
+  u.resize(t.size() * dof);
+  v.resize(u.size());
+  for (auto k = row; k < t.size(); ++k) t[k] = start + double(first - row + k) * h;
+  if (first <= steps && steps < first + most) t.back() = reference.end();
+  const auto part = [&](std::vector<double>& all) { return std::span(all).subspan(row * dof); };
+  reference.sample(std::span(t).subspan(row), model::Side::right, {part(u), part(v), {}});
 }
 
 const GridStates* SharedStates::of(double h, long long steps) {
@@ -29,12 +42,11 @@ const GridStates* SharedStates::of(double h, long long steps) {
 
 GridStates SharedStates::make(double h, std::size_t steps) const {
   GridStates states;
-  states.t.resize(steps + 1);
-  for (std::size_t k = 0; k < steps; ++k) states.t[k] = start_ + double(k) * h;
-  states.t[steps] = reference_->end();
-  states.u.resize(states.t.size() * static_cast<std::size_t>(reference_->dof()));
-  states.v.resize(states.u.size());
-  reference_->sample(states.t, model::Side::right, {states.u, states.v, {}});
+  const auto dof = static_cast<std::size_t>(reference_->dof());
+  states.t.reserve(steps + 1);
+  for (auto* part : {&states.u, &states.v}) part->reserve((steps + 1) * dof);
+  for (std::size_t first = 0; first <= steps; first += GridStates::most)
+    states.fill(*reference_, start_, h, steps, first, first);
   return states;
 }
 

@@ -18,6 +18,13 @@ struct GridStates {
 
   /// Whether `times` are t[first], t[first + 1], ..., to the bit.
   bool holds(std::size_t first, std::span<const double> times) const;
+
+  /// Fills rows from `row` on, and drops those behind, with the states at start + k h of up to `most` steps from
+  /// k = `first` on; the last of `steps` steps ends at the end of the motion to the bit. A value may depend in its last bit on
+  /// the times sampled with it: all who ask for multiples of `most` have the same bits.
+  void fill(const model::Motion& reference, double start, double h, std::size_t steps,
+            std::size_t first, std::size_t row);
+  static constexpr std::size_t most = 2048;
 };
 
 /// The reference at the instants start + k h of those steps that the candidates of a study share, each

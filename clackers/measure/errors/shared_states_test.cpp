@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "clackers/exact/pair/closed_form.hpp"
 #include "clackers/measure/errors/error_sink.hpp"
 #include "clackers/measure/testing/toy_motion.hpp"
 
@@ -98,6 +99,48 @@ TEST(SharedStates, AreLeftOutAtOtherTimes) {
   EXPECT_EQ(found.v_error, expected.v_error);
   score(*reference, states, 0.1, 250);  // more times than there are
   EXPECT_EQ(reference->samples, 2);
+}
+
+// Errors of some rounding errors of a run of 9000 steps, so that every last bit of the reference counts, taken in
+// blocks of `rows`.
+RunScore rounding_score(const exact::SynchronizedPair& motion, ErrorSinkOptions options,
+                        std::size_t rows, double stretch = 1.0) {
+  constexpr std::size_t steps = 9000;
+  const double h = motion.end() / double(steps);
+  ErrorSink sink(motion, motion.problem(), stretch * h, options);
+  for (std::size_t first = 0; first <= steps; first += rows) {
+    std::vector<double> t, u, v;
+    for (auto k = first; k < first + rows && k <= steps; ++k) {
+      t.push_back(k == steps ? motion.end() : double(k) * h);
+      const auto now = motion.at(t.back(), model::Side::right);
+      u.insert(u.end(), now.u.begin(), now.u.end());
+      v.insert(v.end(), now.v.begin(), now.v.end());
+    }
+    sink.take(model::SampleBlock{2, t, u, v});
+  }
+  return sink.score({});
+}
+
+TEST(SharedStates, ThatDoNotFitAreTheSameBitsInBlocksOfAnySize) {
+  const exact::SynchronizedPair motion({.xi1 = 0.01, .t_end = 90.0});
+  SharedStates shared(std::make_shared<exact::SynchronizedPair>(motion), 0.0);
+  const auto expected =
+      rounding_score(motion, {.states = shared.of(motion.end() / 9000, 9000)}, 264);
+  const auto alone = rounding_score(motion, {}, 264);
+  EXPECT_EQ(alone.u_error, 0.0);
+  EXPECT_GT(expected.u_error, 0.0);
+  for (const std::size_t rows : {1u, 77u, 264u}) {
+    const auto found = rounding_score(motion, {.steps = 9000}, rows);
+    EXPECT_EQ(found.u_error, expected.u_error);
+    EXPECT_NEAR(found.v_error, expected.v_error, 1e-14 * expected.v_error) << "summed in blocks";
+  }
+}
+
+TEST(SharedStates, OfOtherStepsThanExpectedAreSampled) {
+  const exact::SynchronizedPair motion({.xi1 = 0.01, .t_end = 90.0});
+  EXPECT_EQ(rounding_score(motion, {.steps = 9000}, 264, 1.0 + 1e-15).u_error, 0.0);
+  for (const long long steps : {1, 8191, 8999, 9001})
+    EXPECT_LT(rounding_score(motion, {.steps = steps}, 77).u_error, 3e-16) << steps;
 }
 
 }  // namespace
