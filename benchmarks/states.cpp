@@ -58,9 +58,11 @@ void race_sampling(const NaivePair& p, double end) {
   std::vector<double> times(4096);
   for (std::size_t i = 0; i < times.size(); ++i)
     times[i] = end * std::fmod(0.618033988749895 * double(i), 1.0);
+  std::vector<double> grid(times);
+  for (std::size_t i = 0; i < grid.size(); ++i) grid[i] = end / double(grid.size()) * double(i);
   std::vector<double> u(2 * times.size()), v(u), a(u);
-  const auto sample = [&](std::span<double> with_a) {
-    motion.sample(times, model::Side::right, {u, v, with_a});
+  const auto sample = [&](const std::vector<double>& at, std::span<double> with_a) {
+    motion.sample(at, model::Side::right, {u, v, with_a});
   };
   std::vector<Row> rows{
       {"Eq. (26) in a loop over <cmath>: u, v",
@@ -75,22 +77,18 @@ void race_sampling(const NaivePair& p, double end) {
        0,
        {}}};
   for (const auto& target : numerics::simd::available_targets()) {
-    rows.push_back({fmt::format("Motion::sample on {}: u, v", target.name()),
-                    [&, target] {
-                      const ForcedTarget forced(target);
-                      sample({});
-                    },
-                    0,
-                    {}});
-    rows.push_back({fmt::format("Motion::sample on {}: u, v, a", target.name()),
-                    [&, target] {
-                      const ForcedTarget forced(target);
-                      sample(a);
-                    },
-                    0,
-                    {}});
+    for (const auto& [at, place] : {std::pair{&times, ""}, {&grid, ", equidistant"}})
+      for (const auto& [with_a, parts] :
+           {std::pair{std::span<double>(), ""}, {std::span(a), ", a"}})
+        rows.push_back({fmt::format("Motion::sample on {}{}: u, v{}", target.name(), place, parts),
+                        [&, target, at = at, with_a = with_a] {
+                          const ForcedTarget forced(target);
+                          sample(*at, with_a);
+                        },
+                        0,
+                        {}});
   }
-  race(fmt::format("Exact states at arbitrary times: X = {}, xi1 = {}, t <= {}", p.X, p.xi1, end),
+  race(fmt::format("Exact states: X = {}, xi1 = {}, t <= {}", p.X, p.xi1, end),
        double(times.size()), rows);
 }
 
@@ -218,7 +216,7 @@ void race_runs() {
                     {}});
     rows.push_back({"the same, every state assessed",
                     [&, run] {
-                      measure::ErrorSink sink(motion, problem, h);
+                      measure::ErrorSink sink(motion, problem, h, {.steps = steps});
                       run->advance(sink);
                     },
                     rows.size() - 1,
