@@ -8,7 +8,7 @@
 // What all cases have in common whose problem is the mesh of a continuum.
 namespace clackers::cases {
 
-/// Of a case with one bar or half a string. The exact motion of 4000 elements takes some 40 s and 2 GB, both of which
+/// Of a case with one bar or half a string. The exact motion of 4000 elements takes some 40 s and 2.5 GB, both of which
 /// grow as n^2.
 inline constexpr double most_exact_elements = 4000.0;
 

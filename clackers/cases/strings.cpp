@@ -10,7 +10,7 @@ namespace clackers::cases {
 namespace {
 
 // Each node has an impact in each L/c, and each flight has its errors.
-constexpr double most_exact_nodes = 200.0;
+constexpr double most_exact_nodes = 400.0;
 
 void build_over_point(Case& test_case, const Values& value, double) {
   const exact::StringOverPointParameters p{within(test_case, value, "L"),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <type_traits>
 
 #ifdef __FAST_MATH__
@@ -60,6 +61,19 @@ constexpr DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
 constexpr DoubleDouble operator*(const DoubleDouble& x, double y) {
   const auto product = two_product(x.hi, y);
   return quick_two_sum(product.hi, product.lo + x.lo * y);
+}
+
+/// Relative error at most 2^-100.
+constexpr DoubleDouble operator/(const DoubleDouble& x, const DoubleDouble& y) {
+  const double first = x.hi / y.hi;
+  return quick_two_sum(first, (x - y * first).hi / y.hi);
+}
+
+/// Relative error at most 2^-100, of x >= 0.
+inline DoubleDouble sqrt(const DoubleDouble& x) {
+  if (x.hi == 0.0) return {};
+  const double first = std::sqrt(x.hi);
+  return quick_two_sum(first, (x - two_product(first, first)).hi / (2.0 * first));
 }
 
 /// The whole number nearest to x (ties to even), for |x| < 2^51. A library call would cost as

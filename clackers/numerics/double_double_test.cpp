@@ -62,6 +62,9 @@ TEST(DoubleDouble, OperationsKeepTheirErrorBounds) {
     EXPECT_LE(abs(wide(x - y) - (wide(x) - wide(y))), ldexp(abs(wide(x)) + abs(wide(y)), -104));
     EXPECT_LE(abs(wide(x * y) - wide(x) * wide(y)), ldexp(abs(wide(x) * wide(y)), -103));
     EXPECT_LE(abs(wide(x * z) - wide(x) * z), ldexp(abs(wide(x) * z), -103));
+    EXPECT_LE(abs(wide(x / y) - wide(x) / wide(y)), ldexp(abs(wide(x) / wide(y)), -100));
+    const Wide root = sqrt(abs(wide(x)));
+    EXPECT_LE(abs(wide(sqrt(x.hi < 0.0 ? -x : x)) - root), ldexp(root, -100));
   }
 }
 
@@ -104,7 +107,7 @@ TEST(TripleDouble, TheLastPartDecidesHalfWayBetweenTwoDoubles) {
   EXPECT_EQ(nearest_double({1.0, 0.0, tiny}).nearest, 1.0);
 }
 
-TEST(HalfTurns, SineAndCosineAreTrueTo63Bits) {
+TEST(HalfTurns, SineAndCosineAreTrueTo63AndTo98Bits) {
   const Wide pi_wide = 4 * atan(Wide(1));
   EXPECT_LE(abs(wide(pi) - pi_wide), ldexp(Wide(1), -106));
   Numbers numbers(seed + 3);
@@ -117,6 +120,9 @@ TEST(HalfTurns, SineAndCosineAreTrueTo63Bits) {
     const auto [sine, cosine] = sincospi(y);
     EXPECT_LE(abs(wide(sine) - sin(pi_wide * wide(y))), ldexp(Wide(1), -63)) << "y = " << y.hi;
     EXPECT_LE(abs(wide(cosine) - cos(pi_wide * wide(y))), ldexp(Wide(1), -63)) << "y = " << y.hi;
+    const auto precise = precise_sincospi(y);
+    EXPECT_LE(abs(wide(precise.sine) - sin(pi_wide * wide(y))), ldexp(Wide(1), -98)) << y.hi;
+    EXPECT_LE(abs(wide(precise.cosine) - cos(pi_wide * wide(y))), ldexp(Wide(1), -98)) << y.hi;
   }
 }
 

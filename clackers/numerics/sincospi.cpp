@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace clackers::numerics::detail {
+namespace clackers::numerics {
 namespace {
 
 // Taylor's series at 0 <= x <= pi/2; the 20th term is below 2^-110. Dividing by whole numbers is
@@ -37,6 +37,21 @@ constexpr std::array<DoubleDouble, 321> make_sines() {
 
 }  // namespace
 
+namespace detail {
 constinit const std::array<DoubleDouble, 321> sine_table = make_sines();
+}
 
-}  // namespace clackers::numerics::detail
+// The angle is below pi/256: terms left out are below 2^-130. Each rounding is 2^-103 of a product below 1.
+SineCosine precise_sincospi(const DoubleDouble& y) {
+  const auto [s, c, z] = detail::tabled(y);
+  const auto square = z * z;
+  DoubleDouble sine{1.0, 0.0}, cosine{1.0, 0.0};
+  for (int n = 14; n > 0; n -= 2) {
+    sine = DoubleDouble{1.0, 0.0} - divide(square * sine, double(n) * double(n + 1));
+    cosine = DoubleDouble{1.0, 0.0} - divide(square * cosine, double(n) * double(n - 1));
+  }
+  sine = sine * z;
+  return {s * cosine + c * sine, c * cosine - s * sine};
+}
+
+}  // namespace clackers::numerics

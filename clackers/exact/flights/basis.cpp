@@ -1,5 +1,6 @@
 #include "clackers/exact/flights/basis.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace clackers::exact {
@@ -15,6 +16,12 @@ Basis::Basis(const Matrix& basis) : columns_(basis.cols()), rows_(std::size_t(ba
   for (Index i = 0; i < basis.rows(); ++i)
     if (const auto& row = rows_[std::size_t(i)]; row.size() == 1 && row[0].second == 1.0)
       same_[std::size_t(row[0].first)] = i;
+}
+
+bool Basis::is_signed() const {
+  return std::ranges::all_of(rows_, [](const auto& row) {
+    return row.empty() || (row.size() == 1 && std::abs(row.front().second) == 1.0);
+  });
 }
 
 Basis::Matrix Basis::times(const Matrix& x) const {

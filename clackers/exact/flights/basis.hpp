@@ -17,6 +17,8 @@ class Basis {
   explicit Basis(const Matrix& basis);
 
   Eigen::Index columns() const { return columns_; }
+  /// Whether each u is 0, or one of q or of -q.
+  bool is_signed() const;
   /// basis x
   Matrix times(const Matrix& x) const;
   /// basis' x

@@ -81,8 +81,13 @@ Crossing settle(auto&& gap, auto&& error, double level, double s) {
     if (now.value <= -beyond)
       return {certain, root(start, s, now.value), 0.0, beyond / certain_depth};
     before = s;
+    // As long as the second derivative is negative for certain, the gap falls faster and faster.
+    const auto falling = [&] {
+      const double deep = numerics::first_zero(now.value + 2.0 * beyond, now.slope, now.second);
+      return std::min(deep, -now.second / now.third_bound);
+    };
     s += now.second > 0.0 ? -now.slope / now.second
-                          : std::max(-now.slope / now.curvature, epsilon * s);
+                          : std::max({-now.slope / now.curvature, falling(), epsilon * s});
     now = gap.whole(s);
   }
   if (!is_least() || !std::isfinite(now.value)) return {undecided};

@@ -63,6 +63,19 @@ void FlightErrors::add(const ForcedModes& modes, const Vector& sizes) {
     add_squares(sizes.cwiseAbs2().asDiagonal(), sizes.size());
     return;
   }
+  add_to_ball(modes, sizes);
+}
+
+void FlightErrors::collapse(const ForcedModes& modes) {
+  for (const auto& column : columns_.colwise()) add_to_ball(modes, column);
+  if (squares_.size() > 0)
+    add_to_ball(modes, (count_ * squares_.diagonal()).cwiseMax(0.0).cwiseSqrt());
+  columns_.resize(Eigen::NoChange, 0);
+  squares_.resize(0, 0);
+  count_ = 0.0;
+}
+
+void FlightErrors::add_to_ball(const ForcedModes& modes, const Vector& sizes) {
   const Index n = modes.dof();
   double hard = 0.0, soft = 0.0, soft_rate = 0.0;
   for (Index j = 0; j < n; ++j) {

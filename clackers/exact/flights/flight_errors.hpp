@@ -40,16 +40,20 @@ class FlightErrors {
   void change(const ForcedModes& from, const ForcedModes& to, const std::vector<Vector>& opened);
   void pass(const ForcedModes& modes, const Impact& impact);
   void enlarge(double factor);
+  /// All of it in the ball, which takes a few numbers: for what is bounded, but not carried any more.
+  void collapse(const ForcedModes& modes);
 
   /// Bounds on |row z| for each row, s seconds later, and up to then.
   Vector bounds(const ForcedModes& modes, const Matrix& rows, double s = 0.0) const;
   Vector bounds_until(const ForcedModes& modes, const Matrix& rows, double s) const;
+  Eigen::Index columns() const { return columns_.cols(); }
   double bytes() const { return 8.0 * double(columns_.size() + squares_.size()); }
 
  private:
   /// What a linear map makes of columns.
   void map(auto&& linear);
   void add_squares(const Matrix& squares, Eigen::Index count);
+  void add_to_ball(const ForcedModes& modes, const Vector& sizes);
   struct Ball {
     double hard = 0.0;                   // |(y, y'/omega)| of the modes
     double soft = 0.0, soft_rate = 0.0;  // |y| and |y'| of the soft ones

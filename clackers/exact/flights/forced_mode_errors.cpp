@@ -109,10 +109,19 @@ Vector ForcedModes::shift(const Vector& whole) const {
   return 2.0 * double(mass_.rows()) * epsilon * sums;
 }
 
-Vector ForcedModes::defect(const Vector& whole) const {
+// Cauchy and Schwarz bound the sums.
+Vector ForcedModes::precise_change_errors(const Vector& z) const {
+  Vector errors(z.size());
+  errors.head(dof()).setConstant(precise_->change_error * z.head(dof()).lpNorm<1>());
+  errors.tail(dof()).setConstant(precise_->change_error * z.tail(dof()).lpNorm<1>());
+  return errors;
+}
+
+Vector ForcedModes::defect(const Vector& whole, bool precise) const {
   if (square_errors_.size() == 0) return force_residual_ * whole;
   Vector made = Vector::Zero(whole.size());
-  made.tail(dof()) = square_errors_.cwiseProduct(whole.head(dof()));
+  made.tail(dof()) =
+      (precise ? precise_->square_errors : square_errors_).cwiseProduct(whole.head(dof()));
   return made;
 }
 
@@ -185,8 +194,9 @@ double ForcedModes::bound(const Eigen::Ref<const Vector>& row, const Sizes& size
 // The sums and products of a flight and of a change to modes and back; the modes' own frequencies,
 // whose relative error of 4 epsilon turns a mode by omega s as much; the phase of the forces; and the
 // residuals.
-Vector ForcedModes::local_errors(const Vector& z, double t, double s) const {
+Vector ForcedModes::local_errors(const Vector& z, double t, double s, bool precise) const {
   const Index n = dof();
+  const double unit = precise ? precise_->unit : epsilon;
   const auto size = sizes(z, s);
   Vector whole(2 * n), error = Vector::Zero(2 * n), growth = Vector::Zero(2 * n);
   whole << size.y, size.rate;
@@ -194,15 +204,16 @@ Vector ForcedModes::local_errors(const Vector& z, double t, double s) const {
     const Vector response = force.sizes(t + s);
     whole += response;
     const double units = force.resonances.empty() ? 2.0 : 8.0;
-    error += epsilon * (16.0 + units * force.frequency * (t + s)) * response;
-    growth += force.defect_per_time;
+    error += unit * (16.0 + units * force.frequency * (t + s)) * response;
+    if (!precise) growth += force.defect_per_time;
   }
-  growth += defect(whole);
-  const Vector shift = this->shift(whole);
+  growth += defect(whole, precise);
+  if (precise) growth.tail(n) += precise_->load_errors;
+  const Vector shift = precise ? Vector(Vector::Zero(2 * n)) : this->shift(whole);
   for (Index j = 0; j < n; ++j) {
     const auto& mode = system_.modes()[std::size_t(j)];
     const double turned = s * std::hypot(mode.omega, 2.0 * mode.sigma);
-    const double relative = epsilon * (4.0 * double(n + 2) + 4.0 * turned);
+    const double relative = unit * (4.0 * double(n + 2) + 4.0 * turned);
     error[j] += relative * size.y[j];
     error[n + j] += relative * size.rate[j];
     // Errors that come anywhere in the flight are carried to its end.
@@ -212,6 +223,21 @@ Vector ForcedModes::local_errors(const Vector& z, double t, double s) const {
     error[j] += std::min(y + s * energy, mode.omega > 0.0 ? energy / mode.omega
                                                           : std::numeric_limits<double>::max());
   }
+  return error;
+}
+
+// Of a state that is rounded once: the phases omega s, sines and a few products, without the sums of a change to modes.
+Vector ForcedModes::rounding_errors(const Vector& z, double t, double s) const {
+  const Index n = dof();
+  const auto size = sizes(z, s);
+  Vector error(2 * n);
+  error << size.y, size.rate;
+  for (Index j = 0; j < n; ++j) {
+    const double relative = epsilon * (8.0 + 4.0 * s * system_.modes()[std::size_t(j)].omega);
+    error[j] *= relative;
+    error[n + j] *= relative;
+  }
+  for (const auto& force : forces_) error += 16.0 * epsilon * force.sizes(t + s);
   return error;
 }
 

@@ -36,7 +36,7 @@ std::optional<numerics::TridiagonalModes> modes_without_defect(
 }  // namespace
 
 ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view who,
-                         const Matrix& basis, const Vector& offset, const Matrix& stiffness_rest)
+                         const Matrix& basis, const Vector& offset, const Rest& rest, bool precise)
     : mass_(problem.system.mass.sparseView()),
       damping_(problem.system.damping.sparseView()),
       stiffness_(problem.system.stiffness.sparseView()),
@@ -53,7 +53,8 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
     Matrix coordinates = of_structure.transpose() * mass_;
     return numerics::ModalSystem(std::move(modes), std::move(of_structure), std::move(coordinates));
   };
-  if (const auto found = modes_without_defect(problem, onto_, stiffness_rest)) {
+  const auto found = modes_without_defect(problem, onto_, rest.stiffness);
+  if (found) {
     std::vector<numerics::Mode> modes;
     for (const double square : found->squares) modes.emplace_back(0.0, square);
     system_ = seen(std::move(modes), found->shapes);
@@ -100,6 +101,7 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
     forces_.back().applied.setZero();  // the structure's own
   }
   find_residuals();
+  if (found && precise) make_precise(*found, load, rest);
 }
 
 // z' = A z + g e^(i w t) mode by mode.

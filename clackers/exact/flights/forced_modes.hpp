@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <complex>
 #include <functional>
+#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "clackers/exact/flights/basis.hpp"
+#include "clackers/model/harmonic_load.hpp"
 #include "clackers/model/impact_problem.hpp"
+#include "clackers/numerics/double_double.hpp"
 #include "clackers/numerics/first_root.hpp"
 #include "clackers/numerics/linear_algebra.hpp"
 #include "clackers/numerics/modes/modal_form.hpp"
@@ -35,11 +39,18 @@ class ForcedModes {
   ForcedModes(const model::ImpactProblem<>& problem, std::string_view who)
       : ForcedModes(problem, who, Matrix::Identity(problem.dof(), problem.dof()),
                     Vector::Zero(problem.dof())) {}
+  /// What a stiffness and the constant forces are more than their doubles say.
+  struct Rest {
+    Matrix stiffness;
+    Vector force;
+  };
   /// The same structure where constraints without friction leave u = offset + basis q. z is the
-  /// modal state of q; u, v and a are of the structure. `stiffness_rest` is what the stiffness is more than
-  /// its doubles say; empty for nothing.
+  /// modal state of q; u, v and a are of the structure. `precise`: in double-double as well, where
+  /// that is possible.
   ForcedModes(const model::ImpactProblem<>& problem, std::string_view who, const Matrix& basis,
-              const Vector& offset, const Matrix& stiffness_rest = {});
+              const Vector& offset, const Rest& rest = {}, bool precise = false);
+
+  using Numbers = std::vector<numerics::DoubleDouble>;
 
   /// The response of a mode to a force at or near its frequency.
   struct Resonance {
@@ -65,6 +76,11 @@ class ForcedModes {
     std::vector<std::complex<double>> response;  ///< to each force
     std::vector<double> direct_size;
     numerics::ModalForm form;  ///< of the free state
+    /// In double-double: of y, not of the free part of it; bounds on the errors of that.
+    Numbers precise;
+    numerics::DoubleDouble precise_constant;
+    Vector precise_errors;
+    double precise_constant_error = 0.0;
     bool vanishes() const {
       return constant == 0.0 && by_state.isZero(0.0) &&
              std::ranges::all_of(response, [](const auto& x) { return x == 0.0; });
@@ -132,12 +148,49 @@ class ForcedModes {
   Sizes sizes(const Vector& z, double s, double push = 1.0) const;
   /// |row z| with z between these sizes, where no mode grows.
   double bound(const Eigen::Ref<const Vector>& row, const Sizes& sizes) const;
-  /// What rounding does to z in s seconds that begin with the free state z at t.
-  Vector local_errors(const Vector& z, double t, double s) const;
+  /// What rounding does to z in s seconds that begin with the free state z at t; with `precise` in double-double.
+  Vector local_errors(const Vector& z, double t, double s, bool precise = false) const;
+  /// What rounding does to z that is found in doubles from a state that was found in double-double.
+  Vector rounding_errors(const Vector& z, double t, double s) const;
   /// What the modes leave of the equations of the structure, as accelerations, where |z| has these sizes.
   Vector acceleration_defect(const Vector& whole) const;
 
+  // In double-double, with the response to forces in z; precise_modes.cpp.
+
+  /// Modes without a defect, constant forces, and constraints that are displacements of a mass or of two.
+  bool is_precise() const { return precise_.has_value(); }
+  Numbers precise_state(const Numbers& u, const Numbers& v) const;
+  /// What z is wrong by where it is found of u and v or these of it.
+  Vector precise_change_errors(const Vector& z) const;
+  /// u and v.
+  std::pair<Numbers, Numbers> precise_motion(const Numbers& z) const;
+  Numbers precise_advanced(const Numbers& z, const numerics::DoubleDouble& s) const;
+  /// row . (z_first, z_first+1, ...)
+  static numerics::DoubleDouble dot(const Numbers& row, const Numbers& z, std::size_t first = 0);
+  static numerics::DoubleDouble precise_value(const Observable& seen, const Numbers& z) {
+    return seen.precise_constant + dot(seen.precise, z);
+  }
+  static numerics::DoubleDouble precise_slope(const Observable& seen, const Numbers& z) {
+    return dot(seen.precise, z, seen.precise.size());
+  }
+
  private:
+  struct Precise {
+    Matrix shapes;                              // what they are more than their doubles
+    Numbers squares, omega, half_turns, loads;  // of each mode; half_turns omega/pi
+    Numbers forces;                             // on the structure
+    Vector square_errors, load_errors;
+    double unit = 0.0, shape_error = 0.0, least_mass = 0.0;
+    double change_error = 0.0;  // of a change to these modes, of the sum of their sizes
+  };
+  void make_precise(const numerics::TridiagonalModes& modes, const model::HarmonicLoad* load,
+                    const Rest& rest);
+  numerics::DoubleDouble precise_shape(Eigen::Index i, Eigen::Index j) const {
+    return {system_.shapes()(i, j), precise_->shapes(i, j)};
+  }
+  void observe_precisely(const Vector& on_u, const Vector& on_a, const Vector& on_load,
+                         double constant, Observable& seen) const;
+
   /// The accelerations that forces on the structure give it.
   using Accelerations = std::function<Matrix(const Matrix&)>;
   void add_force(const Eigen::VectorXcd& applied, double frequency,
@@ -151,7 +204,7 @@ class ForcedModes {
   /// How far z may be from the state that it stands for, and what acts as a force on each mode, where the
   /// modes and the steady response have these sizes.
   Vector shift(const Vector& whole) const;
-  Vector defect(const Vector& whole) const;
+  Vector defect(const Vector& whole, bool precise = false) const;
 
   Sparse mass_, damping_, stiffness_;
   Basis onto_;
@@ -162,6 +215,7 @@ class ForcedModes {
   Vector square_errors_;                    // of modes without a defect, instead of the residuals
   std::vector<numerics::ModalState> push_;  // what constant forces add to dz/dt; empty for none
   std::vector<Force> forces_;
+  std::optional<Precise> precise_;
 };
 
 }  // namespace clackers::exact

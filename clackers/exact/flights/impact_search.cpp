@@ -29,7 +29,7 @@ double PiecewiseMotion::Builder::error_of(std::size_t i, double s) const {
   if (!m_.has_bounds_) return rounding;
   const VectorXd row = seen.by_state.col(0);
   return flight().errors.bounds(modes(), row.transpose(), s)[0] +
-         row.cwiseAbs().dot(modes().local_errors(flight().free, flight().t, s)) + rounding;
+         row.cwiseAbs().dot(m_.local_errors(flight(), s)) + rounding;
 }
 
 auto PiecewiseMotion::Builder::next_contacts() -> std::vector<Closing> {
@@ -107,7 +107,7 @@ std::vector<double> PiecewiseMotion::Builder::levels(double s) const {
   for (std::size_t i = 0; i < springs(); ++i)
     rows.row(Index(i)) = watched(i).by_state.col(0).transpose();
   const VectorXd errors = flight().errors.bounds_until(modes(), rows, s) +
-                          rows.cwiseAbs() * modes().local_errors(flight().free, flight().t, s);
+                          rows.cwiseAbs() * m_.local_errors(flight(), s);
   for (std::size_t i = 0; i < springs(); ++i) level[i] += certain_gap * errors[Index(i)];
   return level;
 }
@@ -147,8 +147,7 @@ std::optional<double> PiecewiseMotion::Builder::climb(std::size_t i, int order, 
   for (int step = 0; doubt > 0.0 && step < most_steps; ++step) {
     auto gap = watch(i, s);
     if (gap.value > level) {
-      const State now{flight().regime, flight().t, m_.total(flight(), flight().t), flight().errors};
-      const double next_error = deviation(now, row(i).seen.by_state.col(order + 1));
+      const double next_error = deviation(here(), row(i).seen.by_state.col(order + 1));
       return next_error * s <= 0.8 * doubt ? std::optional(s) : std::nullopt;
     }
     const double second = doubt * (order == 2 ? 1.0 : s), slope = second * s / (order - 1);

@@ -74,11 +74,11 @@ double PiecewiseMotion::Builder::deviation(const State& state, const VectorXd& r
   return state.errors.bounds(m_.regimes_[state.regime], row.transpose())[0] + rounding;
 }
 
-void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
-  const double s = closings.front().s, t = flight().t + s;
+void PiecewiseMotion::Builder::collide(std::vector<Closing> closings) {
+  const State before = arrived(closings);
+  const double s = closings.front().s, t = before.t;
   const auto now = flight().regime, base = with_held(now, held(now), false);
   const auto& rows = rows_[base];
-  const State before{now, t, m_.total(flight(), t), m_.errors_after(flight(), s)};
   const VectorXd a_before = modes().acceleration(before.z, t),
                  arriving = modes().velocity(before.z);
   fastest_ = std::max(fastest_, arriving.cwiseAbs().maxCoeff());
@@ -98,16 +98,17 @@ void PiecewiseMotion::Builder::collide(const std::vector<Closing>& closings) {
                                 rows[closing.contact].rate().dot(state.z);
   }
   std::ranges::sort(closed);
-  const auto impulses = solve(base, q, closed, t);
+  auto impulses = solve(base, q, closed, t);
   State after = state;
-  for (const auto i : closed) after.z += rows[i].impulse * impulses[Index(i)];
+  const VectorXd lost = strike(after, q, impulses);
   const auto carry = [&](const VectorXd& more) {
     if (!m_.has_bounds_) return;
     auto impact = saltation(base, closings, impulses, state.z, a_before, more);
-    impact.rounding = 4.0 * epsilon * std::max(t, s);
+    impact.rounding = (after.precise.empty() ? 4.0 * epsilon : 0x1p-96) * std::max(t, s);
     after.errors = state.errors;
     after.errors.pass(m_.regimes_[base], impact);
     after.errors.enlarge(1.0 + 4.0 * nonlinear);
+    if (lost.size() > 0) after.errors.add(m_.regimes_[base], lost);
   };
   carry(shared);
   for (const auto& closing : closings) {

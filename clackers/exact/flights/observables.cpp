@@ -28,6 +28,7 @@ auto ForcedModes::observe(const Vector& on_u, const Vector& on_v, const Vector& 
     seen.direct_size.push_back(on_a.cwiseAbs().dot(force.acceleration.cwiseAbs()) +
                                on_load.cwiseAbs().dot(force.applied.cwiseAbs()));
   }
+  if (is_precise()) observe_precisely(on_u, on_a, on_load, constant, seen);
   return seen;
 }
 

@@ -26,6 +26,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double most_bytes = 2e9;
+constexpr Index most_kept = 64;  // columns of errors of a flight that is over
 
 // Symmetric; a product such as S' K S leaves 1e-12 of the largest eigenvalue.
 void require_no_negative_eigenvalue(std::string_view who, const char* name, const MatrixXd& x,
@@ -112,10 +113,8 @@ auto PiecewiseMotion::Builder::sharp_closings() -> std::vector<Closing> {
 
 bool PiecewiseMotion::Builder::sharpen() {
 #ifdef CLACKERS_HAS_ARB
-  // Of more masses it would take minutes.
-  constexpr int most_masses = 8;
   const auto now = m_.flights_.size() - 1;
-  if (!m_.has_bounds_ || now == 0 || sharp_ == now || m_.dof() > most_masses) return false;
+  if (!m_.has_bounds_ || now == 0 || sharp_ == now || m_.dof() > most_masses_of_balls) return false;
   if (!balls_) balls_ = std::make_shared<certified::FlightsEnclosure>(m_);
   const auto exact = balls_->doubles(now, flight().t);
   if (!exact) return false;
@@ -155,6 +154,13 @@ void PiecewiseMotion::Builder::start() {
   const auto& modes = m_.regimes_[state.regime];
   state.errors = FlightErrors(modes, m_.end_);
   state.z = modes.state(problem_.start.u, problem_.start.v);
+  if (modes.is_precise()) {
+    ForcedModes::Numbers u, v;
+    for (const double x : problem_.start.u) u.push_back({x, 0.0});
+    for (const double x : problem_.start.v) v.push_back({x, 0.0});
+    state.precise = modes.precise_state(u, v);
+    state.errors.add(modes, modes.precise_change_errors(state.z));
+  }
   begin(state);
   // The start itself is given; what the change to modes rounds is that of a flight of no length.
   m_.flights_.back().errors = state.errors = m_.errors_after(flight(), 0.0);
@@ -171,13 +177,18 @@ void PiecewiseMotion::Builder::start() {
   }
   const auto next = resting(state, touching);
   m_.flights_.clear();
-  auto errors = seen_in(next, state).errors;
-  begin({next, state.t, m_.regimes_[next].state(problem_.start.u, problem_.start.v),
-         std::move(errors)});
+  auto first = seen_in(next, state);
+  first.z = m_.regimes_[next].state(problem_.start.u, problem_.start.v);
+  begin(std::move(first));
 }
 
 void PiecewiseMotion::Builder::begin(State state) {
-  auto& [regime, t, z, errors, time_error] = state;
+  auto& [regime, t, z, errors, time_error, precise, late] = state;
+  if (!m_.flights_.empty() && flight().is_precise && flight().errors.columns() > most_kept) {
+    auto& before = m_.flights_.back().errors;
+    bytes_ -= before.bytes();
+    before.collapse(modes());
+  }
   bytes_ += errors.bytes();
   if (m_.flights_.size() >= most_flights_ || bytes_ > most_bytes)
     throw InputError(
@@ -196,7 +207,14 @@ void PiecewiseMotion::Builder::begin(State state) {
       now->opens = true;
     }
   }
-  m_.flights_.push_back({t, regime, z - m_.regimes_[regime].steady(t), std::move(errors)});
+  VectorXd free = m_.regimes_[regime].steady(t);
+  precise_ = std::move(precise);
+  if (late != 0.0) precise_ = m_.regimes_[regime].precise_advanced(precise_, {-late, 0.0});
+  for (Index j = 0; j < free.size(); ++j)
+    free[j] = precise_.empty()
+                  ? z[j] - free[j]
+                  : (precise_[std::size_t(j)] - numerics::DoubleDouble{free[j], 0.0}).hi;
+  m_.flights_.push_back({t, regime, std::move(free), std::move(errors), {}, !precise_.empty()});
   begins_ = std::exchange(opens_, std::vector<Begin>(springs(), Begin::open));
   for (std::size_t i = 0; i < springs(); ++i)
     if (is_held(i) && begins_[i] != Begin::idle) begins_[i] = Begin::open;

@@ -20,7 +20,7 @@ class FlightsEnclosure;
 namespace clackers::exact {
 
 /// Goes from impact to impact: regimes.cpp has the modal systems, impact_search.cpp what closes next,
-/// impacts.cpp the impacts, resting_contacts.cpp what stays closed.
+/// impacts.cpp the impacts, resting_contacts.cpp what stays closed, flight_states.cpp the states between flights.
 class PiecewiseMotion::Builder {
   using Index = Eigen::Index;
   using MatrixXd = Eigen::MatrixXd;
@@ -34,6 +34,8 @@ class PiecewiseMotion::Builder {
   void build();
 
  private:
+  /// Flights of so many masses are made precise by balls, those of more are in double-double where their modes are.
+  static constexpr int most_masses_of_balls = 8;
   /// Speeds below this share of their sizes are those of masses that stay together.
   static constexpr double touching_share = 1e-12;
 
@@ -62,6 +64,8 @@ class PiecewiseMotion::Builder {
     VectorXd z;
     FlightErrors errors;
     double time_error = 0.0;
+    ForcedModes::Numbers precise{};  // z in double-double, or empty
+    double late = 0.0;               // of the instant of `precise` after t
   };
 
   const Flight& flight() const { return m_.flights_.back(); }
@@ -96,6 +100,19 @@ class PiecewiseMotion::Builder {
   void change_regime();
   void start();
   void begin(State state);
+
+  // flight_states.cpp
+
+  /// The state where the flight begins.
+  State here() const;
+  State arrived(double s) const;
+  /// The state in which these end the flight; with double-double their instant and its errors as well.
+  State arrived(std::vector<Closing>& closings) const;
+  /// The same instant in another regime.
+  State seen_in(std::size_t regime, const State& state) const;
+  /// Adds these impulses, in double-double after correcting them; `rates` are what closing contacts have to gain. Returns
+  /// what the rates of z are wrong by.
+  VectorXd strike(State& state, const VectorXd& rates, VectorXd& impulses) const;
   /// Begins the flight again from its state by balls, whose error is that of rounding it. False where
   /// this was done, or is not possible.
   bool sharpen();
@@ -140,7 +157,7 @@ class PiecewiseMotion::Builder {
   bool act_on_each_other(std::size_t a, std::size_t b) const;
   void happen(const std::vector<Closing>& closings);
   /// Newton's law for contacts that close together, held ones among them.
-  void collide(const std::vector<Closing>& closings);
+  void collide(std::vector<Closing> closings);
   /// Of contacts that are closed at an impact those that are so after it; the others open.
   std::vector<std::size_t> staying(const std::vector<std::size_t>& closed, const VectorXd& impulses,
                                    const State& after);
@@ -174,10 +191,8 @@ class PiecewiseMotion::Builder {
   /// The regime in which these contacts, of which no derivative is certain, are held without a force; refused where
   /// that is not proven.
   std::size_t resting_idle(const State& state, const std::vector<std::size_t>& contacts);
-  /// The same instant in another regime.
-  State seen_in(std::size_t regime, const State& state) const;
   /// Held contacts whose force ends.
-  void release(const std::vector<Closing>& closings);
+  void release(std::vector<Closing> closings);
   /// Contact i rebounds with impacts that accumulate: rest follows where that is certain. Throws InputError
   /// where the impacts that are left out are not small.
   bool come_to_rest(std::size_t i, double level, bool is_resolved);
@@ -208,6 +223,7 @@ class PiecewiseMotion::Builder {
   std::optional<std::pair<std::size_t, double>> switching_;
   double stiffest_ = 0.0;              // frequency of a spring and the masses that it joins
   std::vector<Begin> begins_, opens_;  // of this flight, of the next
+  ForcedModes::Numbers precise_;       // z where this flight begins, in double-double, or empty
   std::optional<std::size_t> sharp_;   // the last flight that was begun again
   std::shared_ptr<certified::FlightsEnclosure> balls_;
   double bytes_ = 0.0;    // of the errors of all flights

@@ -112,7 +112,15 @@ FlightErrors PiecewiseMotion::errors_after(const Flight& flight, double s) const
   if (!has_bounds_) return {};
   auto errors = flight.errors;
   errors.carry(modes(flight), s);
-  errors.add(modes(flight), modes(flight).local_errors(flight.free, flight.t, s));
+  errors.add(modes(flight),
+             modes(flight).local_errors(flight.free, flight.t, s, flight.is_precise));
+  return errors;
+}
+
+VectorXd PiecewiseMotion::local_errors(const Flight& flight, double s) const {
+  const auto& modes = this->modes(flight);
+  VectorXd errors = modes.local_errors(flight.free, flight.t, s, flight.is_precise);
+  if (flight.is_precise) errors += modes.rounding_errors(flight.free, flight.t, s);
   return errors;
 }
 
@@ -140,7 +148,7 @@ Kinematics PiecewiseMotion::error_bound(double t) const {
     const auto& flight = flights_[k];
     const auto& modes = this->modes(flight);
     const double s = std::max(0.0, t - flight.t);
-    const VectorXd local = modes.local_errors(flight.free, flight.t, s);
+    const VectorXd local = local_errors(flight, s);
     // What is summed, for the rounding of the sum.
     const auto size = modes.sizes(flight.free, s);
     VectorXd whole(2 * modes.dof()), load = VectorXd::Zero(n);

@@ -121,6 +121,7 @@ class PiecewiseMotion : public model::Motion {
     Vector free;          // z without the steady response
     FlightErrors errors;  // of z, at t; with bounds
     std::optional<Event> ends{};
+    bool is_precise = false;  // z was found in double-double, and rounded
   };
   struct Hit {
     double t = 0.0, time_error = 0.0, impulse = 0.0;
@@ -136,6 +137,8 @@ class PiecewiseMotion : public model::Motion {
   /// Whether it ends at t give or take the error of that, without an impact: by a release or a spring.
   bool may_end(std::size_t flight, double t) const;
   FlightErrors errors_after(const Flight& flight, double s) const;
+  /// What rounding in doubles does to z, s seconds into the flight.
+  Vector local_errors(const Flight& flight, double s) const;
 
   std::string who_;
   model::ImpactProblem<> problem_;

@@ -40,7 +40,8 @@ std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
   if (const auto* load = problem_.system.add_load.target<model::HarmonicLoad>())
     forces = load->forces();
   std::vector<std::size_t> held;
-  MatrixXd rest = MatrixXd::Zero(problem_.dof(), problem_.dof());  // of the stiffness with springs
+  ForcedModes::Rest rest{MatrixXd::Zero(problem_.dof(), problem_.dof()),
+                         VectorXd::Zero(problem_.dof())};
   if (closed.back()) structure.system.damping *= law_.damping_after_impact;
   for (std::size_t j = 0; j < contacts_.size(); ++j) {
     if (!closed[j]) continue;
@@ -54,19 +55,22 @@ std::size_t PiecewiseMotion::Builder::regime(const std::vector<bool>& closed) {
       for (Index column = 0; column < b.size(); ++column) {
         if (b[row] == 0.0 || b[column] == 0.0) continue;
         auto& entry = structure.system.stiffness(row, column);
-        const auto sum = numerics::DoubleDouble{entry, rest(row, column)} +
+        const auto sum = numerics::DoubleDouble{entry, rest.stiffness(row, column)} +
                          numerics::two_product(stiffness, b[row]) * b[column];
         entry = sum.hi;
-        rest(row, column) = sum.lo;
+        rest.stiffness(row, column) = sum.lo;
       }
     for (Index i = 0; i < b.size(); ++i)
-      if (const double force = stiffness * gap * b[i]; force != 0.0)
-        forces.push_back({int(i), force, 0.0, 0.0});
+      if (const auto force = numerics::two_product(stiffness, gap) * b[i]; force.hi != 0.0) {
+        forces.push_back({int(i), force.hi, 0.0, 0.0});
+        rest.force[i] += force.lo;
+      }
   }
   if (!forces.empty()) structure.system.add_load = model::HarmonicLoad(std::move(forces));
   const auto constrained = constraint(held);
   const auto& modes =
-      m_.regimes_.emplace_back(structure, m_.who_, constrained.basis, constrained.offset, rest);
+      m_.regimes_.emplace_back(structure, m_.who_, constrained.basis, constrained.offset, rest,
+                               m_.has_bounds_ && problem_.dof() > most_masses_of_balls);
   const VectorXd none = VectorXd::Zero(m_.dof());
   std::vector<Row> rows;
   for (const auto& contact : contacts_)
@@ -127,8 +131,9 @@ std::size_t PiecewiseMotion::Builder::after_impact(std::size_t regime) {
 void PiecewiseMotion::Builder::change_regime() {
   const auto [contact, s] = *std::exchange(switching_, std::nullopt);
   const auto now = flight().regime;
-  const double t = flight().t + s;
-  State state{now, t, m_.total(flight(), t), m_.errors_after(flight(), s)};
+  std::vector<Closing> closings{{contact, s}};
+  State state = arrived(closings);
+  const double t = state.t;
   if (!is_spring(contact)) {
     passed_[contact] = false;
     opens_[contact] = Begin::by_speed;

@@ -16,21 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-auto PiecewiseMotion::Builder::seen_in(std::size_t regime, const State& state) const -> State {
-  if (regime == state.regime) return state;
-  const auto &before = m_.regimes_[state.regime], &after = m_.regimes_[regime];
-  State seen{regime, state.t, after.state(before.displacement(state.z), before.velocity(state.z)),
-             state.errors, state.time_error};
-  if (!m_.has_bounds_) return seen;
-  std::vector<VectorXd> opened;
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (closed_[state.regime][i] && !closed_[regime][i])
-      opened.push_back((is_spring(i) ? rows_[state.regime][i].seen : *m_.forces_[state.regime][i])
-                           .by_state.col(0));
-  seen.errors.change(before, after, opened);
-  return seen;
-}
-
 std::size_t PiecewiseMotion::Builder::resting(const State& state,
                                               const std::vector<std::size_t>& contacts) {
   if (contacts.empty()) return state.regime;
@@ -106,13 +91,13 @@ std::size_t PiecewiseMotion::Builder::resting_idle(const State& state,
 }
 
 // A later or earlier release by time_error changes the gap rate by a term of second order.
-void PiecewiseMotion::Builder::release(const std::vector<Closing>& closings) {
-  const double s = closings.front().s, t = flight().t + s;
+void PiecewiseMotion::Builder::release(std::vector<Closing> closings) {
+  const State held = arrived(closings);
+  const double s = closings.front().s, t = held.t;
   std::vector<std::size_t> contacts;
   for (const auto& closing : closings) contacts.push_back(closing.contact);
   const double late = closings.front().time_error;
   m_.flights_.back().ends = Event{{t - late, t + late}, contacts};
-  State held{flight().regime, t, m_.total(flight(), t), m_.errors_after(flight(), s)};
   auto open = seen_in(with_held(held.regime, contacts, false), held);
   const auto next = resting_by_jerk(open, contacts);
   for (const auto& closing : closings) {
@@ -133,7 +118,7 @@ bool PiecewiseMotion::Builder::come_to_rest(std::size_t i, double level, bool is
   if (departs() || !(eta < 1.0 && gap.slope > 0.0 && fall > 0.0)) return false;
   if (is_resolved && gap.slope * gap.slope > 600.0 * fall * level) return false;
   const auto base = flight().regime, next = with_held(base, {i}, true);
-  const State now{base, t, m_.total(flight(), t), flight().errors};
+  const State now = here();
   auto held = seen_in(next, now);
   const auto& modes = m_.regimes_[next];
   const double w = delassus(base, i, i);
@@ -267,8 +252,9 @@ auto PiecewiseMotion::Builder::left_out(const Bounce& bounce, const State& free,
 // closing comes within that and (12 g/j)^(1/3).
 void PiecewiseMotion::Builder::land(const Closing& closing) {
   const auto i = closing.contact;
-  const double s = closing.s, t = flight().t + s;
-  const State now{flight().regime, t, m_.total(flight(), t), m_.errors_after(flight(), s)};
+  const double s = closing.s;
+  const State now = arrived(s);
+  const double t = now.t;
   auto held = seen_in(with_held(now.regime, {i}, true), now);
   const auto gap = watch(i, s);
   const double level = std::abs(gap.value) + certain_gap * closing.gap_error;

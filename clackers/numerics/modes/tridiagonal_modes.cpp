@@ -15,24 +15,13 @@ using Eigen::Index;
 using Vector = std::vector<DoubleDouble>;
 
 // What a few operations in double-double round at most, of the sum of the sizes.
-constexpr double rounding = 0x1p-96;
+constexpr double rounding = 0x1p-99;
 constexpr double most_shape_error = 0x1p-60, least_square = 0x1p-80;
 // Of the largest square: from here on an iteration that does not halve the residual is the last.
 constexpr double small_residual = 0x1p-84;
 // A stiffness matrix without negative eigenvalues has some of this size by the rounding of its entries.
 constexpr double unit = 64.0 * epsilon;
 constexpr int most_iterations = 6;
-
-DoubleDouble quotient(const DoubleDouble& x, const DoubleDouble& y) {
-  const double first = x.hi / y.hi;
-  const auto rest = x - y * first;
-  return quick_two_sum(first, rest.hi / y.hi);
-}
-
-DoubleDouble root(const DoubleDouble& x) {
-  const double first = std::sqrt(x.hi);
-  return quick_two_sum(first, (x - two_product(first, first)).hi / (2.0 * first));
-}
 
 DoubleDouble dot(const Vector& x, const Vector& y) {
   DoubleDouble sum;
@@ -81,7 +70,7 @@ Vector solved(const Tridiagonal& k, const Tridiagonal& m, const DoubleDouble& sq
         std::swap(y[i], y[i + 1]);
       }
       if (row.here.hi != 0.0) {
-        const auto share = quotient(below.here, row.here);
+        const auto share = below.here / row.here;
         below = {below.next - share * row.next, below.second - share * row.second, {}};
         y[i + 1] = y[i + 1] - share * y[i];
       } else {
@@ -97,7 +86,7 @@ Vector solved(const Tridiagonal& k, const Tridiagonal& m, const DoubleDouble& sq
     if (std::abs(here.hi) < rounding * largest) here = {rounding * largest, 0.0};
     if (i + 1 < n) y[i] = y[i] - next * y[i + 1];
     if (i + 2 < n) y[i] = y[i] - second * y[i + 2];
-    y[i] = quotient(y[i], here);
+    y[i] = y[i] / here;
   }
   return y;
 }
@@ -105,6 +94,7 @@ Vector solved(const Tridiagonal& k, const Tridiagonal& m, const DoubleDouble& sq
 struct RefinedMode {
   DoubleDouble square;
   double residual = std::numeric_limits<double>::infinity();  // a bound, in the norm of M^-1
+  double shape_error = rounding;
   Vector shape;
 };
 
@@ -142,6 +132,7 @@ class Block {
         if (i < modes.size())
           apart = std::min(apart, std::abs((modes[j].square - modes[i].square).hi) -
                                       modes[i].residual - modes[j].residual);
+      modes[j].shape_error += 2.0 * modes[j].residual / apart;
       if (!(2.0 * modes[j].residual <= most_shape_error * apart)) return std::nullopt;
     }
     return modes;
@@ -193,9 +184,9 @@ class Block {
     for (int k = 0; k < most_iterations; ++k) {
       if (k > 0) mode.shape = solved(k_, m_, mode.square, product(m_, mode.shape));
       auto momenta = product(m_, mode.shape);
-      const auto norm = root(dot(mode.shape, momenta));
+      const auto norm = sqrt(dot(mode.shape, momenta));
       for (auto* vector : {&mode.shape, &momenta})
-        for (auto& x : *vector) x = quotient(x, norm);
+        for (auto& x : *vector) x = x / norm;
       const auto forces = product(k_, mode.shape);
       mode.square = dot(mode.shape, forces);
       double sum = 0.0;
@@ -234,16 +225,25 @@ std::optional<TridiagonalModes> tridiagonal_modes(const Tridiagonal& stiffness,
   std::ranges::stable_sort(modes, {}, [](const auto& mode) { return mode.second.square.hi; });
   const double largest =
       std::max(modes.back().second.square.hi, std::abs(modes.front().second.square.hi));
-  TridiagonalModes found{Eigen::VectorXd(n), Eigen::VectorXd(n),
-                         Eigen::MatrixXd::Zero(Index(n), Index(n))};
+  TridiagonalModes found;
+  for (auto* vector :
+       {&found.squares, &found.square_errors, &found.squares_rest, &found.rest_errors})
+    vector->resize(Index(n));
+  found.shapes = found.shapes_rest = Eigen::MatrixXd::Zero(Index(n), Index(n));
   for (Index j = 0; j < Index(n); ++j) {
     const auto& [first, mode] = modes[std::size_t(j)];
-    const auto& [square, residual, shape] = mode;
+    const auto& [square, residual, shape_error, shape] = mode;
     const bool is_zero =
         square.hi <= least_square * largest && square.hi >= -unit * double(n) * largest;
     found.squares[j] = is_zero ? 0.0 : square.hi;
+    found.squares_rest[j] = is_zero ? 0.0 : square.lo;
     found.square_errors[j] = residual + std::abs((square - DoubleDouble{found.squares[j], 0.0}).hi);
-    for (std::size_t i = 0; i < shape.size(); ++i) found.shapes(Index(first + i), j) = shape[i].hi;
+    found.rest_errors[j] = is_zero ? found.square_errors[j] : residual;
+    found.shape_error = std::max(found.shape_error, shape_error);
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+      found.shapes(Index(first + i), j) = shape[i].hi;
+      found.shapes_rest(Index(first + i), j) = shape[i].lo;
+    }
   }
   return found;
 }

@@ -20,6 +20,11 @@ struct TridiagonalModes {
   Eigen::VectorXd squares;
   Eigen::VectorXd square_errors;  ///< bounds
   Eigen::MatrixXd shapes;
+  /// What squares and shapes are more in double-double, and bounds on the errors of that: of shapes in the
+  /// norm of M, in which they are 1.
+  Eigen::VectorXd squares_rest, rest_errors;
+  Eigen::MatrixXd shapes_rest;
+  double shape_error = 0.0;
 };
 
 /// By Rayleigh quotient iteration in double-double from squares by bisection; a residual r of a mode in the

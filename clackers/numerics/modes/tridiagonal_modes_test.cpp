@@ -72,7 +72,8 @@ struct Pencil {
   }
 };
 
-void expect_modes(const Tridiagonal& k, const Tridiagonal& m, double most_error) {
+void expect_modes(const Tridiagonal& k, const Tridiagonal& m, double most_error,
+                  double most_shape_error) {
   const auto found = tridiagonal_modes(k, m);
   ASSERT_TRUE(found);
   const Pencil pencil{k, m};
@@ -98,7 +99,20 @@ void expect_modes(const Tridiagonal& k, const Tridiagonal& m, double most_error)
       EXPECT_LE(abs(sign * shape[i] - start[i]),
                 Real(0x1p-53) * abs(start[i]) + Real(0x1p-60 * size))
           << j << " " << i;
+    // The same in double-double: the square by Sturm's sequence, the shape in the norm of M.
+    const Real rest = Real(square) + Real(found->squares_rest[j]),
+               narrow = Real(found->rest_errors[j]) + Real("1e-45");
+    EXPECT_LE(found->rest_errors[j], std::max(error, 1e-24 * found->squares[n - 1]));
+    EXPECT_LE(pencil.squares_below(rest - narrow), j);
+    EXPECT_GE(pencil.squares_below(rest + narrow), j + 1);
+    for (std::size_t i = 0; i < shape.size(); ++i)
+      shape[i] = sign * shape[i] - start[i] - Real(found->shapes_rest(Eigen::Index(i), j));
+    Real norm = 0;
+    const auto momenta = pencil.momenta(shape);
+    for (std::size_t i = 0; i < shape.size(); ++i) norm += shape[i] * momenta[i];
+    EXPECT_LE(sqrt(norm), found->shape_error) << j;
   }
+  EXPECT_LE(found->shape_error, most_shape_error);
 }
 
 TEST(TridiagonalModes, LieNextToTheTrueNumbers) {
@@ -120,7 +134,7 @@ TEST(TridiagonalModes, LieNextToTheTrueNumbers) {
       k.off_diagonal.push_back({-springs[i + 1], 0.0});
       m.off_diagonal.push_back({trial % 4 < 2 ? 0.0 : 0.1 * std::exp2(-0.5 * spread), 0.0});
     }
-    expect_modes(k, m, 1e-15);
+    expect_modes(k, m, 1e-15, 1e-20);
     EXPECT_EQ(tridiagonal_modes(k, m)->squares[0] == 0.0, trial % 2 == 0);
   }
 }
