@@ -57,10 +57,13 @@ model::ImpactProblem<> random_springs(Box& box) {
 TEST(FlightStates, OfManyMassesAreTheSimulationToARounding) {
   Box box(71);
   int members = 0, impacts = 0, held = 0;
-  double worst = 0.0, widest = 0.0;
+  double worst = 0.0, widest = 0.0, widest_in_doubles = 0.0;
   for (int trial = 0; members < trials(4) && trial < 400; ++trial) {
     SCOPED_TRACE(testing::Message() << "seed 71, trial " << trial);
-    const auto problem = random_springs(box);
+    auto problem = random_springs(box);
+    // Held with other factors the modes are of doubles, and so is the state from then on.
+    const bool is_precise = members != 2;
+    if (!is_precise) problem.contacts.back().direction[4] = 2.0;
     if (test::refusal_of([&] { PiecewiseMotion{problem}; }) != "accepted") continue;
     ++members;
     const PiecewiseMotion motion(problem);
@@ -77,7 +80,8 @@ TEST(FlightStates, OfManyMassesAreTheSimulationToARounding) {
         };
         share(x.u[j], state.u[j], bound.u[j]);
         share(x.v[j], state.v[j], bound.v[j]);
-        widest = std::max(widest, bound.u[j]);
+        (is_precise ? widest : widest_in_doubles) =
+            std::max(is_precise ? widest : widest_in_doubles, bound.u[j]);
       }
       ASSERT_LE(worst, 1.0) << t;
     }
@@ -87,6 +91,7 @@ TEST(FlightStates, OfManyMassesAreTheSimulationToARounding) {
   EXPECT_GT(held, 2 * members);
   // Of 3e-9 with states in doubles.
   EXPECT_LT(widest, 1e-12);
+  EXPECT_GT(widest_in_doubles, widest);
 }
 
 }  // namespace

@@ -180,8 +180,8 @@ class ForcedModes {
     Numbers squares, omega, half_turns, loads;  // of each mode; half_turns omega/pi
     Numbers forces;                             // on the structure
     Vector square_errors, load_errors;
-    double unit = 0.0, shape_error = 0.0, least_mass = 0.0;
-    double change_error = 0.0;  // of a change to these modes, of the sum of their sizes
+    double unit, shape_error, least_mass;
+    double change_error;  // of a change to these modes, of the sum of their sizes
   };
   void make_precise(const numerics::TridiagonalModes& modes, const model::HarmonicLoad* load,
                     const Rest& rest);

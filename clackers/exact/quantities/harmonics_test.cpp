@@ -11,8 +11,6 @@
 namespace clackers::exact {
 namespace {
 
-using std::numbers::pi;
-
 // (2/pi) times the integral over a period of u2/u2(0) cos(2 n Omega t), by the trapezoidal rule,
 // whose error for a continuous periodic function with kinks is X h^2; of the exact motion.
 double measured(double odd, int n) {
@@ -20,7 +18,7 @@ double measured(double odd, int n) {
   constexpr int pieces = 20000;
   double sum = 0.0;
   for (int i = 0; i < pieces; ++i) {
-    const double t = pi * i / pieces;
+    const double t = std::numbers::pi * i / pieces;
     sum += motion.at(t, model::Side::left).u[1] * std::cos(2.0 * n * t);
   }
   return std::abs((n == 0 ? 1.0 : 2.0) / pieces * sum / motion.constants().u2);

@@ -10,18 +10,16 @@
 namespace clackers::exact {
 namespace {
 
-using std::numbers::pi;
-
 // |a_n| of u2/d2 = cos(X theta), theta in [-pi/2, pi/2) repeated, at frequency 2n: Simpson's rule.
 double harmonic(double X, int n) {
   const int panels = 1000;
   double sum = 0.0;
   for (int i = 0; i <= panels; ++i) {
-    const double theta = pi * (double(i) / panels - 0.5);
+    const double theta = std::numbers::pi * (double(i) / panels - 0.5);
     const double weight = i == 0 || i == panels ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
     sum += weight * std::cos(X * theta) * std::cos(2.0 * n * theta);
   }
-  return std::abs(2.0 / pi * sum * pi / panels / 3.0);
+  return std::abs(2.0 / std::numbers::pi * sum * std::numbers::pi / panels / 3.0);
 }
 
 // The highest n that reaches the threshold, by measuring the spectrum.
@@ -46,9 +44,9 @@ TEST(Indicators, FollowEquations10And11And23) {
   const auto found = indicators(9.0, omega, 20.0, 0.1);
   EXPECT_EQ(found.stiffness_ratio, 9.0);
   EXPECT_EQ(found.highest_harmonic, 7.0);
-  EXPECT_DOUBLE_EQ(found.longest_period, pi / omega);
-  EXPECT_DOUBLE_EQ(found.shortest_period, pi / omega / 7.0);
-  EXPECT_DOUBLE_EQ(found.oscillations, 20.0 * 7.0 * omega / pi);
+  EXPECT_DOUBLE_EQ(found.longest_period, std::numbers::pi / omega);
+  EXPECT_DOUBLE_EQ(found.shortest_period, std::numbers::pi / omega / 7.0);
+  EXPECT_DOUBLE_EQ(found.oscillations, 20.0 * 7.0 * omega / std::numbers::pi);
   EXPECT_EQ(found.threshold, 0.1);
   EXPECT_TRUE(found.bound_holds);
 }
