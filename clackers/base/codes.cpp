@@ -144,8 +144,6 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "penalty:law=kelvin-voigt and others have a restitution."},
     {"law-needs-restitution", "refusal",
      "The contact law has no coefficients for this restitution; choose another law or another restitution."},
-    {"needs-inelastic", "refusal",
-     "The contact treatment has no law of restitution: masses stay together after the contact, as with restitution 0."},
     {"no-default-stiffness", "refusal",
      "A contact touches a degree of freedom without stiffness of its own, or, for a nonlinear law, the problem starts without "
      "energy, so there is no default for the penalty contact; give penalty:stiffness=VALUE."},

@@ -29,7 +29,7 @@ inline constexpr auto code_names = std::to_array<std::string_view>({
     "wrong-size", "null-pointer", "wrong-struct-size", "not-positive-definite", "not-symmetric",
     "starts-in-contact", "not-odd", "not-admissible", "not-exact-data", "unknown-name",
     "bad-syntax", "step-not-positive", "too-many-steps", "too-many-rows", "not-a-record",
-    "other-study", "not-whole", "penalty-needs-elastic", "law-needs-restitution", "needs-inelastic",
+    "other-study", "not-whole", "penalty-needs-elastic", "law-needs-restitution",
     "no-default-stiffness", "linear-only", "not-stated", "redundant-contacts", "integrator-not-taken",
     "wrong-resolution", "tolerance-too-small", "beyond-last-impact", "no-closed-form",
     "no-derivative", "needs-arb", "no-enclosure", "time-outside", "three-limits", "not-text",

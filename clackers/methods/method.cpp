@@ -47,7 +47,7 @@ bool is_exact_on(const Facts& facts, const model::ImpactProblem<>& problem) {
 }  // namespace
 
 Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool collides,
-               bool shares_impacts) {
+               bool shares_impacts, bool opens_at_once) {
   const bool is_of_impacts =
       collides || !problem.frictions.empty() || facts.through_impacts.behaviour == Behaviour::exact;
   Claim claim =
@@ -55,13 +55,17 @@ Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool c
   // How soon a regular law of friction tears loose decides by how much later motion errs.
   if (!problem.frictions.empty() && claim.behaviour == Behaviour::stagnating) return {};
   if (shares_impacts && claim.behaviour == Behaviour::stagnating) return {claim.behaviour, 0.0, {}};
+  const bool is_plastic =
+      facts.plastic_order > 0.0 && collides && !problem.contacts.empty() &&
+      std::ranges::all_of(problem.contacts, [](const auto& c) { return c.restitution == 0.0; });
+  if (is_plastic && !opens_at_once) claim.order = facts.plastic_order;
   // An impact that is not located leaves an error of its own.
   const bool keeps_order =
       claim.behaviour == Behaviour::proper && claim.order >= facts.smooth_order;
   if (keeps_order && is_exact_on(facts, problem)) return {Behaviour::exact, 0.0, {}};
   const auto& nonlinear = problem.system.nonlinear;
   if (facts.scatters_pressed && collides && claim.behaviour == Behaviour::proper &&
-      (nonlinear || presses(problem)))
+      (is_plastic ? opens_at_once : nonlinear || presses(problem)))
     claim.behaviour = Behaviour::irregular;
   if (claim.order > 0.0 && nonlinear && nonlinear->has_kinks())
     return {Behaviour::irregular, std::min(2.0, facts.smooth_order), {}};

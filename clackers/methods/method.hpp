@@ -33,6 +33,8 @@ struct Facts {
   /// The orders are those of other motion. Every method of second order is exact under a constant force.
   ExactUnder exact_under = ExactUnder::no_force;
   Claim through_impacts{};  ///< of an integrator alone: nothing
+  /// The order through impacts of restitution 0 after which the contact stays closed; 0: the claimed one.
+  double plastic_order = 0.0;
   /// Through impacts, where a constant force presses a contact closed, springs act on it in contact, or
   /// forces are nonlinear: its order is that of an envelope.
   bool scatters_pressed = false;
@@ -47,8 +49,9 @@ struct Facts {
 /// What a method claims on a problem: through impacts or, where nothing collides, in smooth motion.
 /// `shares_impacts`: contacts that share masses close together. Compliant contacts share such an impact
 /// by their stiffnesses, whatever these are: they claim a floor, but not that stiffness lowers it.
+/// `opens_at_once`: a contact with restitution 0 does not stay closed after an impact.
 Claim claim_on(const Facts& facts, const model::ImpactProblem<>& problem, bool collides,
-               bool shares_impacts = false);
+               bool shares_impacts = false, bool opens_at_once = false);
 
 /// Why a method cannot take a problem.
 struct Objection {

@@ -208,8 +208,14 @@ concept IsTreatment = requires(const T& x, const Facts& facts) {
 template <class T>
 Row row() {
   Row row;
+  const auto card = [] {
+    if constexpr (requires { T::card(); })
+      return T::card();
+    else
+      return std::string(T::card);
+  };
   row.entry = {std::string(T::name), IsTreatment<T> ? "contact" : "method", std::string(T::summary),
-               parameters_of<T>(), std::string(T::card)};
+               parameters_of<T>(), card()};
   if constexpr (IsTreatment<T>)
     row.treatment = [](const Settings& settings) {
       return std::make_shared<TypedTreatment<T>>(configured<T>(settings));

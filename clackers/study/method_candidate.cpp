@@ -69,6 +69,20 @@ std::optional<double> time_of(model::Run& run, model::Sink& sink) {
   return used / runs;
 }
 
+// Whether all contacts have restitution 0 and one opens right after an impact: its gap accelerates, by more
+// than rounding.
+bool opens_at_once(const StudyCase& problem) {
+  const auto& contacts = problem.problem.problem.contacts;
+  const auto is_elastic = [](const auto& contact) { return contact.restitution != 0.0; };
+  if (contacts.empty() || std::ranges::any_of(contacts, is_elastic)) return false;
+  for (long long k = 1; k <= problem.summary.impact_count; ++k) {
+    const auto impact = problem.problem.motion->impact(k);
+    const auto& b = contacts[std::size_t(impact.contact)].direction;
+    if (b.dot(impact.after.a) > 1e-9 * b.cwiseAbs().dot(impact.after.a.cwiseAbs())) return true;
+  }
+  return false;
+}
+
 record::Subject subject_of(const methods::Method& method, const StudyCase& problem) {
   const auto facts = method.facts();
   const bool collides =
@@ -80,7 +94,8 @@ record::Subject subject_of(const methods::Method& method, const StudyCase& probl
     subject.treatment = terms[1];
   }
   subject.claim =
-      methods::claim_on(facts, problem.problem.problem, collides, !problem.shared.empty());
+      methods::claim_on(facts, problem.problem.problem, collides, !problem.shared.empty(),
+                        facts.plastic_order > 0.0 && opens_at_once(problem));
   if (facts.is_adaptive) {
     subject.refined_by = record::RefinementParameter::tolerance;
     // The estimate falls with the power of the step that the error over a run does.

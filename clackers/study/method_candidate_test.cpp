@@ -60,8 +60,8 @@ class ScriptedMethod : public methods::Method {
 };
 
 // What a method claims on a case.
-Claim claim_on(const char* method, const char* name) {
-  const auto problem = study_case(cases::make(name, {}));
+Claim claim_on(const char* method, const char* name, const cases::Settings& settings = {}) {
+  const auto problem = study_case(cases::make(name, settings));
   return MethodCandidate(methods::method(method), problem, {}, {}).facts().subject.claim;
 }
 
@@ -74,6 +74,17 @@ TEST(MethodCandidate, ClaimsWhatItsStepsAndEventsDo) {
   EXPECT_EQ(claim_on("paoli-schatzman", "ball").behaviour, Behaviour::irregular);
   EXPECT_EQ(claim_on("paoli-schatzman", "piecewise").behaviour, Behaviour::irregular);
   EXPECT_EQ(claim_on("paoli-schatzman", "stop").behaviour, Behaviour::proper);
+  // With eta = 0: held, held by its spring, torn open by it, and without contacts.
+  const cases::Settings plastic{{"eta", 0.0}};
+  EXPECT_EQ(claim_on("paoli-schatzman", "stop", plastic).order, 2.0);
+  EXPECT_EQ(claim_on("forward-increment-lagrange", "row", plastic).order, 2.0);
+  EXPECT_EQ(claim_on("paoli-schatzman", "pressed-oscillator", plastic).behaviour,
+            Behaviour::proper);
+  const auto torn = claim_on("paoli-schatzman", "two-bars",
+                             {{"elements", 8.0}, {"mass", std::string("lumped")}, {"eta", 0.0}});
+  EXPECT_EQ(torn.behaviour, Behaviour::irregular);
+  EXPECT_EQ(torn.order, 1.0);
+  EXPECT_EQ(claim_on("paoli-schatzman", "circle-billiard").order, 1.0);
   EXPECT_EQ(claim_on("explicit-generalized-alpha", "pressed-oscillator").behaviour,
             Behaviour::irregular);
   EXPECT_EQ(claim_on("explicit-generalized-alpha", "pendulum").behaviour, Behaviour::irregular);

@@ -116,6 +116,8 @@ const std::vector<Claim>& claims() {
       {"cd-lagrange", 0.5, {.late = 6.0, .penetration = 1.0, .share = 1.0}},
       {"cd-lagrange", 0.0, {.late = 1.0, .penetration = 1.0, .share = 1.0}},
       {"paoli-schatzman", 0.5, {.late = 6.0, .penetration = 1.0, .share = 1.0}},
+      {"paoli-schatzman", 0.0, {.late = 1.0, .penetration = 1.0, .share = 1.0}},
+      {"forward-increment-lagrange", 0.5, {.late = 6.0, .penetration = 1.0, .share = 1.0}},
       {"forward-increment-lagrange", 0.0, {.late = 1.0, .penetration = 1.0, .share = 1.0}}};
   return all;
 }
