@@ -151,7 +151,7 @@ constexpr auto rows = std::to_array<CodeEntry>({
      "The problem has a nonlinear force, dry friction, a load or a free motion that the method, which solves linear equations in closed form or once a step, does not take. "
      "event-driven, penalty and moreau-jean take dry friction."},
     {"not-stated", "refusal",
-     "The motion obeys a law that a problem has no rows for, such as friction at impacts. The case is for engines with laws of their own: check their histories."},
+     "The motion obeys a law that a problem has no rows for, such as a round wall. The case is for engines with laws of their own: check their histories."},
     {"redundant-contacts", "refusal",
      "The directions of contacts that are closed together depend linearly on each other, so their impulses are not unique; remove one of them."},
     {"integrator-not-taken", "refusal",

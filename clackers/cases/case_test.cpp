@@ -59,9 +59,10 @@ TEST(Cases, BuildAProblemAndItsReferenceThatFitTogether) {
         s.mass * start.a + s.damping * start.v + s.stiffness * start.u - forces;
     const Eigen::VectorXd size = s.stiffness.cwiseAbs() * start.u.cwiseAbs() + forces.cwiseAbs() +
                                  s.damping.cwiseAbs() * start.v.cwiseAbs();
-    // Friction has any force up to its limit.
+    // Friction has any force up to its limit; contacts, and friction at them, have none at the start.
     Eigen::VectorXd friction = Eigen::VectorXd::Zero(rest.size());
-    for (const auto& f : test_case.problem.frictions) friction += f.limit * f.direction.cwiseAbs();
+    for (const auto& f : test_case.problem.frictions)
+      if (!f.contact) friction += f.limit * f.direction.cwiseAbs();
     const Eigen::VectorXd error = friction + s.mass.cwiseAbs() * bound.a +
                                   s.damping.cwiseAbs() * bound.v + s.stiffness.cwiseAbs() * bound.u;
     for (Eigen::Index i = 0; i < rest.size(); ++i)

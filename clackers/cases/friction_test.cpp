@@ -325,7 +325,11 @@ TEST(FrictionCases, DisksBounceAsTheirImpactsOneByOne) {
         expect_digits(texts.u, u, size.u);
         expect_digits(texts.v, v, size.v);
       }
-      EXPECT_EQ(motion.contact_forces(t, Side::right)[0], t < rest ? 0.0 : g);
+      const auto forces = motion.contact_forces(t, Side::right);
+      EXPECT_EQ(forces[0], t < rest ? 0.0 : g);
+      EXPECT_EQ(forces[1], found.a[0]);
+      EXPECT_NEAR(forces[1], beta * found.a[2], 1e-15 * mu * g);
+      EXPECT_LE(std::abs(forces[1]), mu * forces[0] * (1.0 + 1e-15));
       EXPECT_EQ(motion.impact_count(t), std::min(now.impacts, motion.impact_count(end)));
     }
     auto thrown = known;

@@ -130,11 +130,6 @@ template <class T>
 concept TakesFriction = requires {
   T::takes_friction;
 };
-/// A treatment with another loop for problems with friction.
-template <class T>
-concept HasFrictionLoop = requires {
-  typename T::template FrictionLoop<1>;
-};
 
 /// A contact treatment of type T.
 template <class T>
@@ -166,10 +161,6 @@ class TypedTreatment final : public Treatment {
   std::unique_ptr<model::Run> prepare(const Method& method, const Integrator& integrator,
                                       const model::ImpactProblem<>& problem,
                                       const Resolution& resolution) const override {
-    if constexpr (HasFrictionLoop<T>)
-      if (!problem.frictions.empty())
-        return prepare_run<T::template FrictionLoop>(method, problem, resolution, integrator,
-                                                     treatment_);
     return prepare_run<T::template Loop>(method, problem, resolution, integrator, treatment_);
   }
 

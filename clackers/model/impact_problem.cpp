@@ -76,12 +76,21 @@ void require_contact(const Contact<>& contact, std::size_t number, Index dof,
         "starts-in-contact");
 }
 
-void require_friction(const Friction<>& friction, std::size_t number, Index dof) {
+void require_friction(const Friction<>& friction, std::size_t number, Index dof,
+                      std::size_t contacts) {
   const auto who = fmt::format("friction {}", number);
   require_direction(who, friction.direction, dof);
   require_finite(who, "limit", friction.limit);
   require_within(who, "kinetic", friction.kinetic, 0.0, friction.limit);
   require_finite(who, "velocity", friction.velocity);
+  if (!friction.contact) return;
+  if (*friction.contact >= contacts)
+    refuse(who, "contact", double(*friction.contact + 1),
+           fmt::format("the number of one of the {} contacts, from 1", contacts));
+  if (friction.kinetic != friction.limit)
+    refuse(who, "kinetic", friction.kinetic,
+           fmt::format("limit = {}: at a contact there is one coefficient of friction",
+                       friction.limit));
 }
 
 }  // namespace
@@ -110,7 +119,7 @@ void validate(const ImpactProblem<>& problem) {
   for (std::size_t i = 0; i < problem.contacts.size(); ++i)
     require_contact(problem.contacts[i], i + 1, dof, problem.start);
   for (std::size_t i = 0; i < problem.frictions.size(); ++i)
-    require_friction(problem.frictions[i], i + 1, dof);
+    require_friction(problem.frictions[i], i + 1, dof, problem.contacts.size());
 }
 
 namespace {
@@ -173,7 +182,7 @@ ImpactProblem<Dof> with_dof(const ImpactProblem<>& problem) {
     for (const auto& c : problem.contacts)
       fixed.contacts.push_back({c.direction, c.gap, c.restitution});
     for (const auto& f : problem.frictions)
-      fixed.frictions.push_back({f.direction, f.limit, f.kinetic, f.velocity});
+      fixed.frictions.push_back({f.direction, f.limit, f.kinetic, f.velocity, f.contact});
     return fixed;
   }
 }

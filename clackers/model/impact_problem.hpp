@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,15 +22,17 @@ struct Contact {
   double gap_rate(const Vector<Dof>& v) const { return direction.dot(v); }
 };
 
-/// Dry friction along b, of a constant normal force: with the sliding speed s = b . v - velocity the
-/// structure feels -kinetic sgn(s) b, and where s = 0 the force lambda b, |lambda| <= limit, that keeps it
-/// so; C. A. Coulomb (1785).
+/// Dry friction along b: with the sliding speed s = b . v - velocity the structure feels -kinetic sgn(s) b,
+/// and where s = 0 the force lambda b, |lambda| <= limit, that keeps it so; C. A. Coulomb (1785). Of a contact
+/// limit = kinetic is a coefficient, times the force of the contact; at an impact of impulse P the same
+/// holds of the impulse, at most limit P, and of s after it.
 template <int Dof = any_dof>
 struct Friction {
-  Vector<Dof> direction;  ///< b, dimensionless
-  double limit = 0.0;     ///< of the static force [N]
-  double kinetic = 0.0;   ///< force while it slides [N], at most the limit
-  double velocity = 0.0;  ///< b . v at which nothing slides [m/s]: that of a belt
+  Vector<Dof> direction;                 ///< b, dimensionless
+  double limit = 0.0;                    ///< of the static force [N], of a contact over its force
+  double kinetic = 0.0;                  ///< force while it slides, at most the limit
+  double velocity = 0.0;                 ///< b . v at which nothing slides [m/s]: that of a belt
+  std::optional<std::size_t> contact{};  ///< from 0; nothing: of a constant normal force
 
   /// s [m/s].
   double sliding_speed(const Vector<Dof>& v) const { return direction.dot(v) - velocity; }
@@ -64,8 +67,8 @@ struct ImpactProblem {
 
 /// Throws InputError unless sizes fit, all numbers are finite, the mass matrix is symmetric
 /// positive definite, damping and stiffness are symmetric, restitutions lie in [0, 1], no contact
-/// is violated at the start, the forces of friction are 0 <= kinetic <= limit, and the end lies after the
-/// start.
+/// is violated at the start, the forces of friction are 0 <= kinetic <= limit, of a contact of the problem
+/// kinetic = limit, and the end lies after the start.
 void validate(const ImpactProblem<>& problem);
 
 /// The same problem with its number of degrees of freedom known at compile time (Dof is 1, 2 or

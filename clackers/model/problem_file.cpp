@@ -111,6 +111,17 @@ VectorXd direction_from(const Reader& reader, const toml::table& table, Index do
   return direction;
 }
 
+// From 0, of the number from 1 that the file has.
+std::size_t index_from(const Reader& reader, const toml::table& table, const char* key,
+                       std::size_t count) {
+  const double number = reader.number(table, key, "a number from 1");
+  if (!(number >= 1.0 && number <= double(count) && number == std::floor(number)))
+    reader.fail(*table.get(key),
+                fmt::format("{} = {}; allowed: a whole number, 1 to {}.", key, number, count),
+                "out-of-range");
+  return std::size_t(number) - 1;
+}
+
 // Direction and gap of a contact or a spring.
 model::Contact<> contact_from(const Reader& reader, const toml::table& table, Index dof) {
   return {direction_from(reader, table, dof), reader.number(table, "gap", 0.0)};
@@ -189,16 +200,27 @@ void add_frictions(const Reader& reader, const toml::table& root, model::ImpactP
   if (list == nullptr) return;
   for (const auto& node : *list) {
     const auto& table = *node.as_table();
-    reader.require_known(table, {"direction", "limit", "kinetic", "velocity"}, " of a friction");
+    const bool is_of_contact = table.get("contact") != nullptr;
+    if (is_of_contact)
+      reader.require_known(table, {"direction", "coefficient", "velocity", "contact"},
+                           " of the friction of a contact");
+    else
+      reader.require_known(table, {"direction", "limit", "kinetic", "velocity", "contact"},
+                           " of a friction");
     model::Friction<> row{direction_from(reader, table, problem.dof()),
-                          reader.number(table, "limit", "in N"), 0.0,
-                          reader.number(table, "velocity", 0.0)};
-    row.kinetic = reader.number(table, "kinetic", row.limit);
+                          is_of_contact ? reader.number(table, "coefficient", "of friction")
+                                        : reader.number(table, "limit", "in N"),
+                          0.0, reader.number(table, "velocity", 0.0)};
+    row.kinetic = is_of_contact ? row.limit : reader.number(table, "kinetic", row.limit);
+    if (is_of_contact) row.contact = index_from(reader, table, "contact", problem.contacts.size());
     if (!(row.kinetic >= 0.0 && row.kinetic <= row.limit))
-      reader.fail(table,
-                  fmt::format("limit = {}, kinetic = {}; allowed: 0 <= kinetic <= limit, in N.",
-                              row.limit, row.kinetic),
-                  "out-of-range");
+      reader.fail(
+          table,
+          is_of_contact
+              ? fmt::format("coefficient = {}; allowed: 0 or more.", row.limit)
+              : fmt::format("limit = {}, kinetic = {}; allowed: 0 <= kinetic <= limit, in N.",
+                            row.limit, row.kinetic),
+          "out-of-range");
     problem.frictions.push_back(std::move(row));
   }
 }
@@ -210,17 +232,13 @@ void add_loads(const Reader& reader, const toml::table& root, model::ImpactProbl
   for (const auto& node : *list) {
     const auto& table = *node.as_table();
     reader.require_known(table, {"dof", "amplitude", "frequency", "phase"}, " of a load");
-    const double dof = reader.number(table, "dof", "the degree of freedom, from 1");
-    if (!(dof >= 1.0 && dof <= double(problem.dof()) && dof == std::floor(dof)))
-      reader.fail(*table.get("dof"),
-                  fmt::format("dof = {}; allowed: a whole number, 1 to {}.", dof, problem.dof()),
-                  "out-of-range");
+    const auto dof = index_from(reader, table, "dof", std::size_t(problem.dof()));
     const double frequency = reader.number(table, "frequency", "rad/s; 0 for a constant force");
     if (!(frequency >= 0.0))
       reader.fail(*table.get("frequency"),
                   fmt::format("frequency = {}; allowed: 0 rad/s or more.", frequency),
                   "out-of-range");
-    forces.push_back({int(dof) - 1, reader.number(table, "amplitude", "in N"), frequency,
+    forces.push_back({int(dof), reader.number(table, "amplitude", "in N"), frequency,
                       reader.number(table, "phase", 0.0)});
   }
   if (!forces.empty()) problem.system.add_load = model::HarmonicLoad(std::move(forces));

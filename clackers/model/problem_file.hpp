@@ -43,6 +43,8 @@ extern const std::string_view example_problem;
 ///     limit = 0.2                 # N, of the static force
 ///     kinetic = 0.1               # N, optional: the limit
 ///     velocity = 0                # m/s, optional: direction . v at which nothing slides
+///     contact = 1                 # optional: friction of that contact, of [[contacts]] without a stiffness
+///     coefficient = 0.25          # of its force, in place of limit and kinetic
 ///
 /// in TOML, as JSON (this object, or one with it as member "problem"), or as the lines of
 /// problem_file_text(). A number may be a text with a fraction, "1/3".
@@ -69,11 +71,14 @@ model::ImpactProblem<> read_problem(const std::string& path);
 ///      "loads": [{"dof": 1, "amplitude": 2, "frequency": 3, "phase": 0}],
 ///      "springs": [{"direction": [1, -1], "gap": 0, "stiffness": 400}],
 ///      "nonlinear_springs": [{"direction": [1], "law": "sine", "stiffness": 9.8, "length": 1}],
-///      "frictions": [{"direction": [1, 0], "limit": 0.2, "kinetic": 0.1, "velocity": 0}],
+///      "frictions": [{"direction": [1, 0], "limit": 0.2, "kinetic": 0.1, "velocity": 0},
+///                    {"direction": [1, 0], "coefficient": 0.25, "velocity": 0, "contact": 1}],
 ///
 /// add the forces amplitude cos(frequency t + phase) on the right, dof from 1, and
 /// stiffness min(direction . u - gap, 0) direction and kinetic sgn(s) direction, s = direction . v - velocity,
-/// on the left; where s = 0 friction is what keeps it so, up to its limit. "unstated" is a law in words that the
+/// on the left; where s = 0 friction is what keeps it so, up to its limit. With a contact, from 1, both are the
+/// coefficient times the force of the contact, and at an impact friction has an impulse: what makes s = 0, at most
+/// the coefficient times the impulse of the contact. "unstated" is a law in words that the
 /// motion obeys beside these; problem files do not take it. Throws InputError (linear-only) for
 /// any other load or nonlinear force.
 std::string problem_json(const model::ImpactProblem<>& problem);
@@ -109,7 +114,8 @@ std::string problem_file_json(std::string_view case_name, const model::ImpactPro
 ///     restitution1=1
 ///
 /// with the last three lines for each contact, then lines load1=dof amplitude frequency phase and
-/// spring1=direction gap stiffness, sine1= or cubic1=direction stiffness length and friction1=direction limit kinetic velocity for each of them. Throws as problem_json does.
+/// spring1=direction gap stiffness, sine1= or cubic1=direction stiffness length, friction1=direction limit kinetic velocity and, of a contact,
+/// rubbing1=direction coefficient velocity contact for each of them. Throws as problem_json does.
 std::string problem_file_text(const model::ImpactProblem<>& problem);
 
 }  // namespace clackers::model

@@ -92,13 +92,14 @@ struct RowLine {
   std::string_view key, list;
   std::vector<std::string_view> names;
 };
-const std::array<RowLine, 6> row_lines{{
+const std::array<RowLine, 7> row_lines{{
     {"direction", "contacts", {}},
     {"load", "loads", {"dof", "amplitude", "frequency", "phase"}},
     {"spring", "springs", {"gap", "stiffness"}},
     {"sine", "nonlinear_springs", {"stiffness", "length"}},
     {"cubic", "nonlinear_springs", {"stiffness", "length"}},
     {"friction", "frictions", {"limit", "kinetic", "velocity"}},
+    {"rubbing", "frictions", {"coefficient", "velocity", "contact"}},
 }};
 
 // Of lines key=values as problem_file_text() writes them.

@@ -86,10 +86,16 @@ std::string problem_json(const Problem& problem) {
   }
   if (!problem.frictions.empty()) {
     std::vector<std::string> rows;
-    for (const auto& f : problem.frictions)
+    for (const auto& f : problem.frictions) {
+      const auto direction = list(numbers(f.direction));
       rows.push_back(
-          fmt::format(R"({{"direction": {}, "limit": {}, "kinetic": {}, "velocity": {}}})",
-                      list(numbers(f.direction)), f.limit, f.kinetic, f.velocity));
+          f.contact
+              ? fmt::format(
+                    R"({{"direction": {}, "coefficient": {}, "velocity": {}, "contact": {}}})",
+                    direction, f.limit, f.velocity, *f.contact + 1)
+              : fmt::format(R"({{"direction": {}, "limit": {}, "kinetic": {}, "velocity": {}}})",
+                            direction, f.limit, f.kinetic, f.velocity));
+    }
     forces += fmt::format(" \"frictions\": [{}],\n", fmt::join(rows, ", "));
   }
   if (!problem.unstated.empty())
@@ -159,9 +165,14 @@ std::string problem_file_text(const Problem& problem) {
       text += fmt::format("{}{}={} {} {}\n", row.name(), ++number,
                           fmt::join(numbers(row.direction), " "), row.stiffness, row.length);
   number = 0;
-  for (const auto& f : problem.frictions)
-    text += fmt::format("friction{}={} {} {} {}\n", ++number, fmt::join(numbers(f.direction), " "),
-                        f.limit, f.kinetic, f.velocity);
+  for (const auto& f : problem.frictions) {
+    const auto direction = fmt::format("{}", fmt::join(numbers(f.direction), " "));
+    ++number;
+    text += f.contact ? fmt::format("rubbing{}={} {} {} {}\n", number, direction, f.limit,
+                                    f.velocity, *f.contact + 1)
+                      : fmt::format("friction{}={} {} {} {}\n", number, direction, f.limit,
+                                    f.kinetic, f.velocity);
+  }
   if (!problem.unstated.empty()) text += fmt::format("unstated={}\n", problem.unstated);
   return text;
 }

@@ -127,6 +127,42 @@ TEST(ProblemText, HarmonicLoadsAndSpringsAreNumbers) {
   EXPECT_EQ(force, Eigen::Vector2d(2.0 * std::cos(3.0 * 0.7 - 0.5), 1.0));
 }
 
+TEST(ProblemText, FrictionOfAContactNamesIt) {
+  auto problem = two_masses();
+  problem.frictions = {{Eigen::Vector2d(1.0, 0.0), 0.5, 0.25, 2.0},
+                       {Eigen::Vector2d(0.0, 3.0), 0.75, 0.75, -1.0, 1}};
+  EXPECT_EQ(parse_json(problem_json(problem))["frictions"], parse_json(R"([
+    {"direction": [1, 0], "limit": 0.5, "kinetic": 0.25, "velocity": 2},
+    {"direction": [0, 3], "coefficient": 0.75, "velocity": -1, "contact": 2}])"));
+  const auto text = problem_file_text(problem);
+  EXPECT_TRUE(text.ends_with("friction1=1 0 0.5 0.25 2\nrubbing2=0 3 0.75 -1 2\n"));
+  for (const auto& written : {text, problem_json(problem)}) {
+    const auto read = problem_from_text(written, "f");
+    EXPECT_EQ(problem_file_text(read), text);
+    EXPECT_FALSE(read.frictions.at(0).contact);
+    EXPECT_EQ(read.frictions.at(1).contact, 1U);
+    EXPECT_EQ(read.frictions[1].kinetic, 0.75);
+    EXPECT_EQ(with_dof<2>(read).frictions[1].contact, 1U);
+  }
+  const auto change = [&](std::string_view from, std::string_view to) {
+    auto changed = problem_json(problem);
+    changed.replace(changed.find(from), from.size(), to);
+    return problem_from_text(changed, "f");
+  };
+  EXPECT_REFUSED(change("\"contact\": 2", "\"contact\": 3"), "out-of-range",
+                 "contact = 3; allowed: a whole number, 1 to 2");
+  EXPECT_REFUSED(change("\"contact\": 2", "\"contact\": 0"), "out-of-range", "contact = 0");
+  EXPECT_REFUSED(change("\"coefficient\": 0.75", "\"limit\": 0.75"), "unknown-name",
+                 "of the friction of a contact");
+  EXPECT_REFUSED(change("\"coefficient\": 0.75", "\"coefficient\": -1"), "out-of-range",
+                 "coefficient = -1");
+  problem.frictions[1].contact = 2;
+  EXPECT_REFUSED(validate(problem), "out-of-range", "friction 2", "contact = 3");
+  problem.frictions[1].contact = 0;
+  problem.frictions[1].kinetic = 0.5;
+  EXPECT_REFUSED(validate(problem), "out-of-range", "one coefficient");
+}
+
 TEST(ProblemText, RefusesOtherLoads) {
   auto problem = two_masses();
   problem.system.add_load = [](double, std::span<double>) {};

@@ -26,16 +26,32 @@ class Friction(CommandTest):
             self.assertEqual([s["assessment"]["verdict"] for s in subjects[:3]], ["agrees"] * 3, done.stdout)
             self.assertEqual(subjects[3]["refusal_code"], "linear-only")
 
-    def test_friction_at_impacts_is_named_and_refused(self):
-        said = "between contact 1 and the slip v1 + v3"
-        self.assertIn(said, json.loads(run("show", "oblique-disk", "--format", "json").stdout)["problem"]["unstated"])
-        for method in ("rk4", "moreau-jean"):
-            self.refused("verify", method, "--case", "oblique-disk", code="not-stated", says=(said,))
-        self.refused("export", "oblique-disk", "--to", "scipy", "--out", self.path("deck"), code="no-deck", says=(said,))
+    def test_friction_of_a_contact_is_a_row_of_the_problem(self):
+        row = {"direction": [1, 0, 1], "coefficient": 0.1, "velocity": 0, "contact": 1}
+        problem = json.loads(run("show", "oblique-disk", "--format", "json").stdout)["problem"]
+        self.assertEqual(problem["frictions"], [row])
         copy = self.path("copy.txt")
         run("verify", "--case", "oblique-disk", "--exec", f"cp {{case:text}} {copy}; false {{h}} {{out}}")
         with open(copy) as file:
-            self.assertIn(said, file.read())
+            self.assertIn("rubbing1=1 0 1 0.1 0 1\n", file.read())
+        done = run("verify", "--case", "oblique-disk", "rk4", "moreau-jean", "paoli-schatzman", "--format", "json")
+        subjects = json.loads(done.stdout)["cases"][0]["subjects"]
+        self.assertEqual([s["assessment"]["verdict"] for s in subjects[:2]], ["agrees"] * 2, done.stdout)
+        self.assertEqual(subjects[2]["refusal_code"], "linear-only")
+        self.refused("export", "oblique-disk", "--to", "scipy", "--out", self.path("deck"), code="no-deck",
+                     says=("friction",))
+
+    def test_force_of_a_disk_is_that_of_the_floor_and_its_friction(self):
+        rows = self.rows_of("respond", "oblique-disk", "--set", "g=2,eta=0.5,mu=1/4,vx0=9,w0=0", "--step", "0.5",
+                            "--forces")
+        forces = {row["t"]: [row["force1"], row["friction1"]] for row in rows}
+        self.assertEqual(forces["2.5"], ["0", "0"])
+        self.assertEqual(forces["4.5"], ["2", "-0.5"])
+        energy = self.rows_of("respond", "oblique-disk", "--set", "g=2,eta=0.5,mu=1/4,vx0=9,w0=0", "--step", "5",
+                              "--energy")
+        first, last = energy[0], energy[-1]
+        self.assertAlmostEqual(float(last["total"]), float(first["total"]), places=13)
+        self.assertGreater(float(last["dissipated"]), 0.0)
 
     def test_impacts_on_a_round_wall_are_not_counted(self):
         history, events = self.path("history.csv"), self.path("events.csv")

@@ -45,6 +45,13 @@ double order(const methods::Method& method, const cases::Case& test_case, double
   return numerics::fit_line(x, y).slope;
 }
 
+model::Trajectory path_of(const char* name, const model::ImpactProblem<>& problem, double h) {
+  model::TrajectorySink sink(true);
+  const auto outcome = methods::method(name)->prepare(problem, h)->advance(sink);
+  EXPECT_TRUE(outcome.finished) << outcome.detail;
+  return sink.trajectory();
+}
+
 const char* const all_cases[] = {"slider", "belt", "forced-slider"};
 
 TEST(Friction, IsLocatedToTheOrderOfTheIntegrator) {
@@ -102,14 +109,8 @@ TEST(Friction, OfTwoMassesIsTheSameByMoreauAndJeanAndLocated) {
   problem.end = 30.0;
   problem.frictions = {{Eigen::Vector2d(1.0, 0.0), 0.6, 0.4, 0.3},
                        {Eigen::Vector2d(0.0, 2.0), 0.2, 0.1, -0.2}};
-  const auto run = [&](const char* name, double h) {
-    model::TrajectorySink sink(true);
-    const auto outcome = methods::method(name)->prepare(problem, h)->advance(sink);
-    EXPECT_TRUE(outcome.finished) << outcome.detail;
-    return sink.trajectory();
-  };
-  const auto located = run("rk4", 0.01), again = run("newmark", 0.0025),
-             stepped = run("moreau-jean", 0.0005);
+  const auto located = path_of("rk4", problem, 0.01), again = path_of("newmark", problem, 0.0025),
+             stepped = path_of("moreau-jean", problem, 0.0005);
   ASSERT_EQ(located.t.size(), 3001u);
   double apart = 0.0, newmark = 0.0;
   int sticking = 0;
@@ -124,14 +125,136 @@ TEST(Friction, OfTwoMassesIsTheSameByMoreauAndJeanAndLocated) {
   EXPECT_LT(apart, 5e-3);
 }
 
+const cases::Settings disks[] = {
+    {},
+    {{"mu", 0.0}},
+    {{"g", 2.0}, {"eta", 0.5}, {"mu", 1.0 / 3.0}, {"vx0", 9.0}, {"w0", 0.0}},  // slides at rest
+    {{"eta", 0.0}, {"vx0", -3.0}},
+    {{"beta", 0.4}, {"w0", -20.0}}};
+
+// Between impacts, stick and slip the forces are constant.
+TEST(Friction, OfAContactIsLocatedToRounding) {
+  for (const auto& settings : disks) {
+    const auto test_case = cases::make("oblique-disk", settings);
+    for (const auto* name : {"newmark", "central-difference", "rk4"})
+      for (const double steps : {100.0, 1713.0})
+        EXPECT_LT(error_of(*methods::method(name), test_case, test_case.problem.end / steps), 1e-11)
+            << name << " mu " << test_case.problem.frictions[0].limit;
+    EXPECT_LT(
+        error_of(*methods::method("dopri5"), test_case, methods::Resolution::by_tolerance(1e-9)),
+        1e-8);
+  }
+}
+
+TEST(Friction, OfAContactByMoreauAndJeanIsOfFirstOrder) {
+  const auto method = methods::method("moreau-jean");
+  for (const auto i : {0, 2, 3}) {
+    const auto test_case = cases::make("oblique-disk", disks[i]);
+    const double fall =
+        upper_envelope(*method, test_case, 250.0) / upper_envelope(*method, test_case, 4000.0);
+    EXPECT_NEAR(std::log2(fall) / 4.0, 1.0, 0.2) << i;
+  }
+}
+
+// A mass on a spring along a floor that moves; a load lifts it and drops it, so that it bounces, rests,
+// sticks and slips, under a changing normal force. Two methods that share nothing.
+TEST(Friction, OfALiftedMassIsTheSameByMoreauAndJeanAndLocated) {
+  auto problem = cases::make("oblique-disk").problem;
+  problem.system.mass = Eigen::Vector2d(1.0, 2.0).asDiagonal();
+  problem.system.damping = Eigen::Vector2d(0.1, 0.0).asDiagonal();
+  problem.system.stiffness = Eigen::Vector2d(4.0, 0.0).asDiagonal();
+  problem.system.add_load = [](double t, std::span<double> f) {
+    f[0] += 3.0 * std::cos(1.3 * t);
+    f[1] += -5.0 + 7.0 * std::sin(0.9 * t);
+  };
+  problem.contacts = {{Eigen::Vector2d(0.0, 1.0), 0.0, 0.4}};
+  problem.frictions = {{Eigen::Vector2d(-2.0, 0.0), 0.3, 0.3, 0.2, 0}};
+  problem.start = {0.0, Eigen::Vector2d(0.3, 0.5), Eigen::Vector2d(1.0, 0.0)};
+  problem.end = 20.0;
+  const auto exact = path_of("rk4", problem, 0.0025);
+  int sticks = 0, slides = 0, flies = 0;
+  const auto apart = [&](const char* name, double h) {
+    const auto path = path_of(name, problem, h);
+    double most = 0.0;
+    const auto ratio = std::size_t(std::round(0.0025 / h * 64.0));
+    for (std::size_t i = 0; i < exact.t.size(); i += 64)
+      for (std::size_t j = 0; j < 2; ++j)
+        most = std::max(most, std::abs(exact.u[2 * i + j] - path.u[2 * (i / 64) * ratio + j]));
+    return most;
+  };
+  for (std::size_t i = 0; i < exact.t.size(); ++i) {
+    const bool flying = exact.u[2 * i + 1] > 1e-9;
+    flies += flying ? 1 : 0;
+    (std::abs(exact.v[2 * i] + 0.1) < 1e-12 ? sticks : slides) += flying ? 0 : 1;
+  }
+  EXPECT_GT(sticks, 300);
+  EXPECT_GT(slides, 300);
+  EXPECT_GT(flies, 300);
+  EXPECT_GT(exact.impacts->size(), 10u);
+  EXPECT_LT(apart("rk4", 0.005), 1e-8);
+  const double coarse = apart("newmark", 0.01), fine = apart("newmark", 0.0025);
+  EXPECT_NEAR(std::log2(coarse / fine) / 2.0, 2.0, 0.2);
+  const double first = apart("moreau-jean", 0.0025), last = apart("moreau-jean", 0.0003125);
+  EXPECT_LT(last, 2e-3);
+  EXPECT_NEAR(std::log2(first / last) / 3.0, 1.0, 0.35);
+}
+
+// u'' = -+0.1 from v = 1 up to a stop at u = 1, back with half the speed, and at rest where it began.
+TEST(Friction, OfASliderAgainstAStopIsTakenByMoreauAndJean) {
+  auto problem = cases::make("slider").problem;
+  problem.system.stiffness.setZero();
+  problem.contacts = {{-Eigen::VectorXd::Ones(1), -1.0, 0.5}};
+  problem.frictions[0].limit = problem.frictions[0].kinetic = 0.1;
+  problem.start = {0.0, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1)};
+  problem.end = 8.0;
+  for (const double h : {0.01, 0.001}) {
+    const auto path = path_of("moreau-jean", problem, h);
+    ASSERT_EQ(path.impacts->size(), 1u);
+    EXPECT_NEAR(path.impacts->front().t, 10.0 - std::sqrt(80.0), 1.5 * h);
+    EXPECT_NEAR(path.u.back(), 0.0, 2.0 * h);
+    EXPECT_NEAR(path.v.back(), 0.0, 1e-15);
+  }
+  // Pressed against the stop, where contact and friction hold the same mass.
+  problem.contacts[0].restitution = 0.0;
+  problem.system.add_load = [](double, std::span<double> f) { f[0] += 0.5; };
+  const auto path = path_of("moreau-jean", problem, 0.001);
+  EXPECT_NEAR(path.u.back(), 1.0, 2e-3);
+  EXPECT_NEAR(path.v.back(), 0.0, 1e-15);
+}
+
+TEST(Friction, OfAContactIsRefusedWhereItsForceIsUnknown) {
+  auto disk = cases::make("oblique-disk").problem;
+  for (const auto* name : {"newmark+reversal", "paoli-schatzman", "newmark+penalty"})
+    EXPECT_REFUSED(methods::method(name)->prepare(disk, 0.01), "linear-only", "friction");
+  auto problem = disk;
+  problem.system.stiffness(1, 1) = 1.0;
+  EXPECT_REFUSED(methods::method("rk4")->prepare(problem, 0.01), "linear-only",
+                 "contact 1 has friction");
+  EXPECT_NO_THROW(methods::method("moreau-jean")->prepare(problem, 0.01));
+  problem = disk;
+  problem.system.damping(1, 1) = 1.0;
+  EXPECT_REFUSED(methods::method("rk4")->prepare(problem, 0.01), "linear-only",
+                 "contact 1 has friction");
+  problem = disk;
+  problem.contacts.push_back({Eigen::Vector3d(0.0, -1.0, 0.0), -5.0, 1.0});
+  EXPECT_REFUSED(methods::method("rk4")->prepare(problem, 0.01), "linear-only",
+                 "contact 1 has friction");
+  problem = disk;
+  problem.frictions[0].direction[1] = 0.1;
+  EXPECT_REFUSED(methods::method("rk4")->prepare(problem, 0.01), "linear-only",
+                 "contact 1 and row 1 of friction share a mass");
+}
+
 TEST(Friction, IsRefusedByMethodsWithoutALawOfIt) {
   const auto slider = cases::make("slider").problem;
   for (const auto* name : {"newmark+reversal", "d1-minus", "paoli-schatzman", "piecewise-exact"})
     EXPECT_REFUSED(methods::method(name)->prepare(slider, 0.01), "linear-only", "dry friction");
   auto problem = slider;
   problem.contacts = {{Eigen::VectorXd::Ones(1), -1.0, 1.0}};
-  for (const auto* name : {"newmark", "newmark+penalty", "moreau-jean"})
-    EXPECT_REFUSED(methods::method(name)->prepare(problem, 0.01), "linear-only", "contacts");
+  EXPECT_REFUSED(methods::method("newmark+penalty")->prepare(problem, 0.01), "linear-only",
+                 "contacts");
+  EXPECT_REFUSED(methods::method("newmark")->prepare(problem, 0.01), "linear-only",
+                 "contact 1 and row 1 of friction share a mass");
   problem = slider;
   problem.frictions.push_back(problem.frictions[0]);
   EXPECT_REFUSED(methods::method("newmark")->prepare(problem, 0.01), "linear-only", "share a mass");

@@ -62,10 +62,7 @@ ObliqueDisk::ObliqueDisk(const ObliqueDiskParameters& p, std::string_view who)
   problem_.start = {0.0, Eigen::Vector3d(0.0, p.height.h0, 0.0),
                     Eigen::Vector3d(p.vx0, p.height.v0, p.w0)};
   problem_.end = p.height.end;
-  problem_.unstated = fmt::format(
-      "friction on the floor (Coulomb's law, mu = {}, of impulses at the impacts and of forces after them, between "
-      "contact 1 and the slip v1 + v3)",
-      p.mu);
+  problem_.frictions = {{Eigen::Vector3d(1.0, 0.0, 1.0), p.mu, p.mu, 0.0, 0}};
 }
 
 double ObliqueDisk::slides() const {
@@ -73,6 +70,10 @@ double ObliqueDisk::slides() const {
                                                          : double(formulas_.counts.slides);
 }
 double ObliqueDisk::rolls() const { return instant(formulas_.counts.slides + 1).nearest(); }
+
+VectorXd ObliqueDisk::contact_forces(double t, model::Side side) const {
+  return Eigen::Vector2d(Bouncing::contact_forces(t, side)[0], at(t, side).a[0]);
+}
 
 model::Kinematics ObliqueDisk::envelope(double t) const {
   model::require_inside("motion", t, end());

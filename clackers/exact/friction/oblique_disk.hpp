@@ -19,6 +19,7 @@ class ObliqueDisk final : public Bouncing<DiskFormulas> {
   ObliqueDisk(const ObliqueDiskParameters& parameters, std::string_view who);
 
   model::Kinematics envelope(double t) const override;
+  Eigen::VectorXd contact_forces(double t, model::Side side) const override;
   /// Impacts through which it slides, and from when on it rolls; infinite for all and never.
   double slides() const;
   double rolls() const;

@@ -184,13 +184,6 @@ double ConstrainedSystem<Dof>::release_margin(std::size_t contact, const State& 
          double(active_.size()) * rounding / std::sqrt(contacts_.inverse_effective_mass(contact));
 }
 
-template <int Dof>
-bool ConstrainedSystem<Dof>::is_any_released(const State& now) {
-  for (const auto i : active_)
-    if (!(release_margin(i, now) >= 0.0)) return true;
-  return false;
-}
-
 template class ConstrainedSystem<1>;
 template class ConstrainedSystem<2>;
 template class ConstrainedSystem<model::any_dof>;

@@ -61,8 +61,6 @@ class ConstrainedSystem {
   /// The force of an active contact and what its rounding may amount to [N]. A contact does not
   /// pull: where this is negative the contact opens.
   double release_margin(std::size_t contact, const State& now);
-  /// True where an active contact opens.
-  bool is_any_released(const State& now);
 
  private:
   class ProjectedForce;

@@ -5,6 +5,7 @@
 
 #include "clackers/methods/contact/constrained_system.hpp"
 #include "clackers/methods/contact/crossing.hpp"
+#include "clackers/methods/contact/friction_rows.hpp"
 #include "clackers/methods/contact/impact_resolution.hpp"
 #include "clackers/methods/contact/stick_slip.hpp"
 #include "clackers/methods/rows.hpp"
@@ -41,10 +42,12 @@ steps, and of an adaptive integrator at every eighth of them. Contacts that are
 closed at once with linearly dependent b_j end the run, and so do more than 1000 events in one
 step.
 
-A row of dry friction slides, which is a constant force, or sticks, which is a constraint: it stops
-where the cubic through sliding speed and its rate, and then the step map, cross 0, and sticks there
-if the force that holds it is within its limit. It slides where that force crosses the limit, looked
-for at the ends of steps. Friction is taken without contacts, and of rows that share no mass.
+A row of dry friction slides, which is a force, or sticks, which is a constraint: it stops where the
+cubic through sliding speed and its rate, and then the step map, cross 0, and sticks there if the
+force that holds it is within its limit. It slides where that force crosses the limit, looked for at
+the ends of steps. Friction of a contact does so while the contact is active; at an impact with the
+impulse P it has the impulse that ends the slip, at most mu P. Rows of friction share no mass with
+contacts and each other, and only loads press on the contacts that have friction.
 
 Order       that of the integrator.
 Stability   that of the integrator.
@@ -74,20 +77,10 @@ Source      L. F. Shampine, I. Gladwell, R. W. Brankin, ACM Trans. Math. Softw. 
 
   template <int Dof>
   class Loop;
-  template <int Dof>
-  class FrictionLoop;
 };
 
-template <int Dof>
-class EventDriven::FrictionLoop final : public StickSlip<Dof> {
- public:
-  FrictionLoop(const Integrator& integrator, const EventDriven&,
-               const model::ImpactProblem<Dof>& problem, const StepPlan& plan)
-      : StickSlip<Dof>(integrator, problem, plan) {}
-};
-
-/// A run with located impacts. While nothing is near a contact and no contact is active, a step is
-/// the integrator's own and a few comparisons; all else is off that path.
+/// A run with located impacts, stick and slip. While nothing is near a contact, none is active and
+/// nothing rubs, a step is the integrator's own and a few comparisons; all else is off that path.
 template <int Dof>
 class EventDriven::Loop {
  public:
@@ -99,10 +92,11 @@ class EventDriven::Loop {
       : problem_(std::move(problem)),
         time_loop_(plan, problem_),
         contacts_(problem_),
-        constrained_(problem_.system, contacts_),
+        with_frictions_(with_frictions(problem_)),
+        rows_(with_frictions_ ? *with_frictions_ : contacts_),
+        constrained_(problem_.system, rows_),
+        stick_slip_(problem_, rows_, constrained_),
         resolution_(contacts_, plan, problem_.start),
-        free_stepper_(integrator.stepper(problem_.system, plan)),
-        constrained_stepper_(integrator.stepper(constrained_.system(), plan)),
         h_(plan.is_adaptive() ? plan.end - plan.start : plan.h),
         is_suppressed_(contacts_.size(), false),
         is_struck_(contacts_.size(), false),
@@ -111,7 +105,15 @@ class EventDriven::Loop {
         v_before_(problem_.start.v),
         impulses_(contacts_.no_impulses()),
         is_adaptive_(plan.is_adaptive()) {
-    for (auto* list : {&closed_, &before_, &captured_}) list->reserve(contacts_.size());
+    for (auto* list : {&closed_, &before_, &captured_}) list->reserve(rows_.size());
+    if (!problem_.frictions.empty())
+      problem_.system.add_load = [this, load = problem_.system.add_load](double t,
+                                                                         std::span<double> force) {
+        if (load) load(t, force);
+        stick_slip_.add_forces(force);
+      };
+    free_stepper_ = integrator.stepper(problem_.system, plan);
+    constrained_stepper_ = integrator.stepper(constrained_.system(), plan);
   }
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
@@ -125,27 +127,28 @@ class EventDriven::Loop {
   }
 
   model::Work work() const {
-    return work_of(steps_, searches_, *free_stepper_, *constrained_stepper_);
+    return work_of(steps_, searches_ + stick_slip_.searches(), *free_stepper_,
+                   *constrained_stepper_);
   }
 
   AnyStepper<Dof>& stepper() {
     return constrained_.is_any_active() ? *constrained_stepper_ : *free_stepper_;
   }
 
-  bool is_open() const { return !constrained_.is_any_active(); }
+  bool is_open() const { return !constrained_.is_any_active() && !stick_slip_.is_any_rubbing(); }
   void pass(std::size_t count, auto&& before) { resolution_.pass(count, before); }
 
   // True where nothing can have happened between the two ends of a step.
   bool is_quiet(const State& before, const State& now) {
     pass(1, [&](std::size_t) -> const State& { return before; });
     const double length = now.t - before.t;
-    const bool is_free = !constrained_.is_any_active();
-    for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if ((is_free || !constrained_.is_active(i)) &&
-          !GapCubic(sample(i, 0.0, before), sample(i, length, now)).stays_above(0.0))
-        return false;
     // The longer steps of an adaptive integrator may hold a release and the closing after it.
-    return is_free || (!is_adaptive_ && !constrained_.is_any_released(now));
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (constrained_.is_active(i)
+              ? is_adaptive_ || !(constrained_.release_margin(i, now) >= 0.0)
+              : !GapCubic(sample(i, 0.0, before), sample(i, length, now)).stays_above(0.0))
+        return false;
+    return stick_slip_.is_quiet(before, now);
   }
 
   // Everything that happens between `before` and `now`, the end of the step as it would be without
@@ -166,12 +169,13 @@ class EventDriven::Loop {
       const auto event = first_event(now);
       if (!event) break;
       if (++counted_ > most_events)
-        return ended(out.fail("too-many-impacts", from_.t, "more than 1000 impacts in one step"));
+        return ended(out.fail("too-many-impacts", from_.t, "more than 1000 events in one step"));
       if (!apply(*event, now, out)) return Handled::ended;
       is_changed = true;
       resolution_.begin_flight(from_);
       if (is_adaptive_) {
-        if (is_suppressed_[event->contact]) continue;  // where the step began
+        if (event->kind != Event::Kind::friction && is_suppressed_[event->row])
+          continue;  // where the step began
         now = from_;
         stepper().restart(now);
         return Handled::shortened;
@@ -191,9 +195,10 @@ class EventDriven::Loop {
 
  private:
   struct Event {
+    enum class Kind { impact, release, friction };
     double s;
-    std::size_t contact;
-    bool is_release;
+    std::size_t row;  // a contact, or a row of friction
+    Kind kind;
   };
 
   static Handled ended(bool) { return Handled::ended; }
@@ -210,6 +215,7 @@ class EventDriven::Loop {
     free_stepper_->reset();
     constrained_stepper_->reset();
     constrained_.activate({}, problem_.start.u);
+    stick_slip_.begin();
     from_ = problem_.start;
     find_closed();
     std::erase_if(closed_, [&](std::size_t i) { return !is_resting(i, from_.v); });
@@ -234,12 +240,17 @@ class EventDriven::Loop {
 
   // Moves from_ to the later side of an event between it and `now`. False: the run ends.
   bool apply(const Event& event, const State& now, Recorder<Dof>& out) {
-    const std::size_t i = event.contact;
+    const std::size_t i = event.row;
+    const bool is_release = event.kind == Event::Kind::release;
     // In a long step the contact may be pressed again at its end.
     const double soon = event.s + 0x1p-6 * (now.t - from_.t - event.s);
-    later_ = event.is_release && is_adaptive_ ? stepper().partial(from_, soon) : now;
+    later_ = is_release && is_adaptive_ ? stepper().partial(from_, soon) : now;
     move_to(event.s, now.t);
-    if (event.is_release) {
+    if (event.kind == Event::Kind::friction) {
+      before_.assign(constrained_.active().begin(), constrained_.active().end());
+      stick_slip_.change(i, from_);
+      rebuild();
+    } else if (is_release) {
       if (!release(later_, out)) return false;
       if (constrained_.is_active(i)) {
         // Its force only touches 0.
@@ -266,7 +277,7 @@ class EventDriven::Loop {
     from_.t = std::min(t, t1);  // s reaches t1 - from_.t at most; its rounding may pass it
   }
 
-  // The next impact or release between from_ and `now`.
+  // The next impact, release or change of friction between from_ and `now`.
   std::optional<Event> first_event(const State& now) {
     const double length = now.t - from_.t;
     std::optional<Event> first;
@@ -276,9 +287,13 @@ class EventDriven::Loop {
                      : is_release      ? release_time(i, length, now)
                                        : impact_time(i, length, now);
       // Of an impact and a release at one instant the impact, which decides all contacts anew.
-      if (s && (!first || *s < first->s || (*s == first->s && !is_release && first->is_release)))
-        first = Event{*s, i, is_release};
+      const auto kind = is_release ? Event::Kind::release : Event::Kind::impact;
+      if (s && (!first || *s < first->s || (*s == first->s && kind < first->kind)))
+        first = Event{*s, i, kind};
     }
+    const auto change = stick_slip_.first_event(from_, now, stepper());
+    if (change && (!first || change->s < first->s))
+      first = Event{change->s, change->row, Event::Kind::friction};
     return first;
   }
 
@@ -343,6 +358,7 @@ class EventDriven::Loop {
       if (ends_in_rest(i)) captured_.push_back(i);
     if (const auto no = contacts_.impact(closed_, from_.v, impulses_, captured_))
       return fail(*no, out);
+    stick_slip_.impact(impulses_, from_.v);
     for (const auto i : closed_) {
       const double impulse = impulses_[static_cast<Eigen::Index>(i)];
       if (!(impulse > 0.0)) continue;
@@ -377,9 +393,14 @@ class EventDriven::Loop {
   bool decide(const State& later, Recorder<Dof>& out) {
     before_.assign(constrained_.active().begin(), constrained_.active().end());
     if (const auto no = constrained_.decide(closed_, from_, later)) return fail(*no, out);
+    if (!problem_.frictions.empty()) stick_slip_.settle(from_);
+    rebuild();
+    return true;
+  }
+  // Where other rows are held than those of before_.
+  void rebuild() {
     if (constrained_.is_any_active() && !std::ranges::equal(before_, constrained_.active()))
       constrained_stepper_->rebuild();
-    return true;
   }
 
   // The contacts closed at from_, also those that close within rounding of its time.
@@ -417,7 +438,10 @@ class EventDriven::Loop {
   model::ImpactProblem<Dof> problem_;
   TimeLoop<Dof> time_loop_;
   ContactSet<Dof> contacts_;
+  std::optional<ContactSet<Dof>> with_frictions_;
+  ContactSet<Dof>& rows_;  // all there are
   ConstrainedSystem<Dof> constrained_;
+  StickSlip<Dof> stick_slip_;
   ImpactResolution<Dof> resolution_;
   std::unique_ptr<AnyStepper<Dof>> free_stepper_, constrained_stepper_;
   double h_;

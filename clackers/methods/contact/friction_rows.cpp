@@ -2,30 +2,54 @@
 
 #include <fmt/format.h>
 
-namespace clackers::methods {
+#include "clackers/base/constants.hpp"
 
-std::optional<Objection> objection_to_friction_with_contacts(
-    const std::string& who, const model::ImpactProblem<>& problem) {
-  if (problem.frictions.empty() || problem.contacts.empty()) return std::nullopt;
-  return Objection{
-      who +
-          ": the problem has friction and contacts, but friction is taken of a constant "
-          "normal force only. Leave out one of both.",
-      "linear-only"};
+namespace clackers::methods {
+namespace {
+
+// Whether the force that keeps contact j closed follows from the loads, whatever the motion.
+bool is_pressed_by_loads(const ContactSet<model::any_dof>& rows,
+                         const model::ImpactProblem<>& problem, std::size_t j) {
+  for (std::size_t i = 0; i < problem.contacts.size(); ++i)
+    if (i != j && rows.are_coupled(i, j)) return false;
+  const auto& system = problem.system;
+  const Eigen::VectorXd response = rows.response().velocity.col(to_index(j));
+  const auto is_rounding = [&](const Eigen::MatrixXd& matrix) {
+    const double unit = 16.0 * double(response.size()) * epsilon;
+    return (matrix * response).cwiseAbs().maxCoeff() <=
+           unit * (matrix.cwiseAbs() * response.cwiseAbs()).maxCoeff();
+  };
+  return !system.nonlinear && is_rounding(system.stiffness) && is_rounding(system.damping);
 }
+
+}  // namespace
 
 std::optional<Objection> objection_to_stick_slip(const std::string& who,
                                                  const model::ImpactProblem<>& problem) {
-  const ContactSet<model::any_dof> rows = friction_rows(problem);
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  const auto rows = with_frictions(problem);
+  if (!rows) return std::nullopt;
+  const auto contacts = problem.contacts.size();
+  const auto name = [&](std::size_t i) {
+    return i < contacts ? fmt::format("contact {}", i + 1)
+                        : fmt::format("row {} of friction", i + 1 - contacts);
+  };
+  for (std::size_t i = contacts; i < rows->size(); ++i) {
     for (std::size_t j = 0; j < i; ++j)
-      if (rows.are_coupled(i, j))
+      if (rows->are_coupled(i, j))
         return Objection{
-            fmt::format("{}: rows {} and {} of friction share a mass; allowed: rows that "
-                        "do not. Use moreau-jean.",
-                        who, j + 1, i + 1),
+            fmt::format("{}: {} and {} share a mass; allowed: friction that shares none. "
+                        "Use moreau-jean.",
+                        who, name(j), name(i)),
             "linear-only"};
-  return objection_to_friction_with_contacts(who, problem);
+    const auto& of = problem.frictions[i - contacts].contact;
+    if (of && !is_pressed_by_loads(*rows, problem, *of))
+      return Objection{fmt::format("{}: {} has friction, and its force is not that of loads only; "
+                                   "allowed: no springs, dampers or other contacts that act there. "
+                                   "Use moreau-jean.",
+                                   who, name(*of)),
+                       "linear-only"};
+  }
+  return std::nullopt;
 }
 
 }  // namespace clackers::methods

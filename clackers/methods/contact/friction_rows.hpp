@@ -13,18 +13,22 @@
 // Rows of dry friction, as the methods that take them see them.
 namespace clackers::methods {
 
-/// The rows of friction as contacts: their responses to impulses.
+/// `before` and then the rows of friction as contacts: their responses to impulses.
 template <int Dof>
-ContactSet<Dof> friction_rows(const model::ImpactProblem<Dof>& problem) {
-  std::vector<model::Contact<Dof>> rows;
-  for (const auto& f : problem.frictions) rows.push_back({f.direction, 0.0, 0.0});
-  return {std::move(rows), problem.system.mass};
+ContactSet<Dof> friction_rows(const model::ImpactProblem<Dof>& problem,
+                              std::vector<model::Contact<Dof>> before = {}) {
+  for (const auto& f : problem.frictions) before.push_back({f.direction, 0.0, 0.0});
+  return {std::move(before), problem.system.mass};
+}
+/// Contacts and then friction, of a problem that has it.
+template <int Dof>
+std::optional<ContactSet<Dof>> with_frictions(const model::ImpactProblem<Dof>& problem) {
+  if (problem.frictions.empty()) return std::nullopt;
+  return friction_rows(problem, problem.contacts);
 }
 
-/// Why friction is not taken: beside contacts, whose impulses would be another normal force.
-std::optional<Objection> objection_to_friction_with_contacts(const std::string& who,
-                                                             const model::ImpactProblem<>& problem);
-/// Why located stick and slip does not take a problem: as above, and rows that share a mass.
+/// Why located stick and slip does not take a problem: rows of friction that share a mass with others or
+/// with contacts, and friction of contacts on which more than loads presses.
 std::optional<Objection> objection_to_stick_slip(const std::string& who,
                                                  const model::ImpactProblem<>& problem);
 

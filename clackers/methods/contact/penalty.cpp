@@ -130,7 +130,12 @@ std::optional<Objection> Penalty::objection_to(const Facts& method) const {
 
 std::optional<Objection> Penalty::objection(const Facts& method,
                                             const model::ImpactProblem<>& problem) const {
-  if (auto no = objection_to_friction_with_contacts(method.name, problem)) return no;
+  if (!problem.frictions.empty() && !problem.contacts.empty())
+    return Objection{
+        method.name +
+            ": the problem has friction and contacts, but regular friction is taken of a constant "
+            "normal force only, without contacts. Use event-driven or moreau-jean.",
+        "linear-only"};
   for (const double w : widths(problem))
     if (!(w > 0.0 && std::isfinite(w)))
       return Objection{

@@ -26,7 +26,8 @@ Rows of dry friction have the impulses L of the same step with
 
     |L| <= h limit where b.v1 = velocity,   L = -h kinetic sgn(b.v1 - velocity) elsewhere
 
-of rows that slid in the step before with h kinetic for both. Friction is taken without contacts.
+of rows that slid in the step before with h kinetic for both; of a row of friction of a contact both are
+mu P, with the P of the contact in the step.
 
 Order       1 of the upper envelope; in smooth motion 2 for theta = 1/2, otherwise 1, and where
             that error, of the size (theta - 1/2) h, is the larger one, errors lie on a line.
@@ -62,7 +63,6 @@ Source      J. J. Moreau, Comput. Methods Appl. Mech. Eng. 177, 329-349 (1999).
             .through_impacts = {Behaviour::irregular, 1.0, {}}};
   }
   std::optional<Objection> objection(const model::ImpactProblem<>& problem) const {
-    if (auto no = objection_to_friction_with_contacts(specification(*this), problem)) return no;
     return objection_to_closed_contacts(specification(*this), problem);
   }
 

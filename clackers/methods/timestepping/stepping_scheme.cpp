@@ -94,57 +94,44 @@ bool SteppingScheme<Dof>::find_impulses(double h, double t1, Recorder<Dof>& out)
   impulses_.setZero();
   jump_.setZero();
   if (failure_) return out.fail(failure_->code, t1, failure_->sentence);
-  if (frictions_.size() > 0) return find_friction(h, t1, out);
+  friction_.setZero();
   complete(h);
   for (std::size_t j = 0; j < contacts_.size(); ++j) least_[j] = least_rate(j, h);
   // A motion that is not finite is the recorder's to report.
   for (int i = 0; !equation_.failed() && y_.allFinite(); ++i) {
     take_violated();
-    if (rows_.empty()) return true;
+    if (rows_.empty() && frictions_.size() == 0) return true;
     change_ = impulses_;
-    improve_impulses();
+    if (!rows_.empty()) improve_impulses();
     if (failure_) return out.fail(failure_->code, t1, failure_->sentence);
     change_ = impulses_ - change_;
-    if (is_settled(h)) return true;
+    const bool is_friction_settled = frictions_.size() == 0 || improve_friction(h);
+    if (is_settled(h) && is_friction_settled) break;
     if (i == most_iterations())
       return out.fail("complementarity-failed", t1,
                       "the iteration for the impulses at the contacts does not end");
     jump_.noalias() = contacts_.response().velocity * impulses_;
+    if (frictions_.size() > 0) jump_.noalias() += frictions_.response().velocity * friction_;
     complete(h);
   }
-  return equation_.failed() ? out.fail_step(t1, equation_.failure()) : true;
-}
-
-// The step is made anew with the impulses of friction until these change no more; for linear forces the
-// second one is the last.
-template <int Dof>
-bool SteppingScheme<Dof>::find_friction(double h, double t1, Recorder<Dof>& out) {
-  for (int i = 0;; ++i) {
-    jump_.noalias() = frictions_.response().velocity * friction_;
-    complete(h);
-    if (equation_.failed()) return out.fail_step(t1, equation_.failure());
-    if (!y_.allFinite()) return true;
-    last_friction_ = friction_;
-    improve_friction(h);
-    const double size =
-        std::max(last_friction_.cwiseAbs().maxCoeff(), friction_.cwiseAbs().maxCoeff());
-    if ((friction_ - last_friction_).cwiseAbs().maxCoeff() <= 0x1p-40 * size) break;
-    if (i == most_iterations())
-      return out.fail("complementarity-failed", t1, "the iteration for friction does not end");
-  }
+  if (equation_.failed()) return out.fail_step(t1, equation_.failure());
   for (std::size_t j = 0; j < frictions_.size(); ++j)
     sticks_[j] = holds_[j] || std::abs(friction_[to_index(j)]) < h * problem_.frictions[j].kinetic;
   return true;
 }
 
-// Projected iteration of Gauss and Seidel around the sliding speeds of y_; the response is symmetric
-// and positive definite. A row that sticks and reaches its limit slides.
+// Projected iteration of Gauss and Seidel around the sliding speeds of y_, changed by `change_`; the
+// response is symmetric and positive definite. A row that sticks and reaches its limit slides; rows of
+// contacts have one limit. True where the last iterate was the solution.
 template <int Dof>
-void SteppingScheme<Dof>::improve_friction(double h) {
+bool SteppingScheme<Dof>::improve_friction(double h) {
+  last_friction_ = friction_;
   const auto& w = response_to_friction_.delassus;
   slip_.noalias() = -(w * friction_);
+  jump_.noalias() = response_.velocity * change_;
+  jump_ += y_;
   for (std::size_t j = 0; j < frictions_.size(); ++j)
-    slip_[to_index(j)] += problem_.frictions[j].sliding_speed(y_);
+    slip_[to_index(j)] += problem_.frictions[j].sliding_speed(jump_);
   holds_ = sticks_;
   for (bool changes = true; changes;) {
     changes = false;
@@ -154,7 +141,8 @@ void SteppingScheme<Dof>::improve_friction(double h) {
       for (std::size_t j = 0; j < frictions_.size(); ++j) {
         const auto i = to_index(j);
         const auto& f = problem_.frictions[j];
-        const double most = h * (holds_[j] ? f.limit : f.kinetic);
+        const double most = f.contact ? f.limit * impulses_[to_index(*f.contact)]
+                                      : h * (holds_[j] ? f.limit : f.kinetic);
         const double free = slip_[i] + w.row(i).dot(friction_) - w(i, i) * friction_[i];
         const double now = std::clamp(-free / w(i, i), -most, most);
         moved = std::max(moved, std::abs(now - friction_[i]) / std::max(most, 1e-300));
@@ -162,12 +150,16 @@ void SteppingScheme<Dof>::improve_friction(double h) {
       }
       if (moved <= epsilon) break;
     }
-    for (std::size_t j = 0; j < frictions_.size(); ++j)
-      if (holds_[j] && std::abs(friction_[to_index(j)]) >= h * problem_.frictions[j].limit) {
-        holds_[j] = false;
-        changes = true;
-      }
+    for (std::size_t j = 0; j < frictions_.size(); ++j) {
+      const auto& f = problem_.frictions[j];
+      if (f.contact || !holds_[j] || std::abs(friction_[to_index(j)]) < h * f.limit) continue;
+      holds_[j] = false;
+      changes = true;
+    }
   }
+  const double size =
+      std::max(last_friction_.cwiseAbs().maxCoeff(), friction_.cwiseAbs().maxCoeff());
+  return (friction_ - last_friction_).cwiseAbs().maxCoeff() <= 0x1p-40 * size;
 }
 
 // Adds all contacts below their least rate to rows_.

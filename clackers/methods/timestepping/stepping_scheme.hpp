@@ -20,7 +20,8 @@ namespace clackers::methods {
 ///
 /// whatever their numbers. y is affine in P, with the derivative `response`, but for nonlinear forces
 /// and a response that is not symmetric: the complementarity problem is then solved again with the
-/// step made of the last impulses, until these no longer change.
+/// step made of the last impulses, until these no longer change. So are the impulses of friction, which
+/// at a contact have the limit mu P_j.
 template <int Dof>
 class SteppingScheme {
  public:
@@ -91,8 +92,7 @@ class SteppingScheme {
 
   bool step(double h, double t1, Recorder<Dof>& out);
   bool find_impulses(double h, double t1, Recorder<Dof>& out);
-  bool find_friction(double h, double t1, Recorder<Dof>& out);
-  void improve_friction(double h);
+  bool improve_friction(double h);
   void take_violated();
   bool report(Recorder<Dof>& out);
 

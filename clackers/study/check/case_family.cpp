@@ -42,7 +42,7 @@ struct ContactNumber {
 
 std::vector<ContactNumber> contact_numbers(const model::ImpactProblem<>& problem) {
   std::vector<ContactNumber> all;
-  if (!problem.unstated.empty()) return all;
+  if (!problem.unstated.empty() || !problem.frictions.empty()) return all;
   const auto add = [&](std::string name, double value, const char* unit, Change change) {
     all.push_back({{std::move(name), value, unit, false}, std::move(change)});
   };

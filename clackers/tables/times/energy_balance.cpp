@@ -83,13 +83,14 @@ auto EnergyBalance::rate(double t, Side side) const -> Flow {
   if (varying_) varying_(t, {force.data(), std::size_t(force.size())});
   flow[work] = (force - constant_).dot(now.v);
   flow[dissipated] = now.v.dot(system.damping * now.v);
-  for (const auto& row : problem_.frictions)
-    flow[dissipated] += row.kinetic * std::abs(row.sliding_speed(now.v));
-  if (work_of_belts_) {
+  if (!problem_.frictions.empty()) {
     const auto forces = motion_.contact_forces(t, side);
-    for (std::size_t j = 0; j < problem_.frictions.size(); ++j)
-      flow[work] +=
-          forces[Eigen::Index(problem_.contacts.size() + j)] * problem_.frictions[j].velocity;
+    for (std::size_t j = 0; j < problem_.frictions.size(); ++j) {
+      const auto& row = problem_.frictions[j];
+      const double normal = row.contact ? forces[Eigen::Index(*row.contact)] : 1.0;
+      flow[dissipated] += row.kinetic * normal * std::abs(row.sliding_speed(now.v));
+      flow[work] += forces[Eigen::Index(problem_.contacts.size() + j)] * row.velocity;
+    }
   }
   // What no row states is what the equation of motion leaves; contacts that stay closed do no work.
   if (!problem_.unstated.empty())
