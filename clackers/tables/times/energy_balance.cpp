@@ -61,9 +61,7 @@ void EnergyBalance::add_losses() {
 
 void EnergyBalance::integrate(const cases::Case& test_case, double until) {
   const auto& system = problem_.system;
-  if (system.damping.isZero(0.0) && problem_.frictions.empty() && problem_.unstated.empty() &&
-      !has_work())
-    return;
+  if (system.damping.isZero(0.0) && problem_.frictions.empty() && !has_work()) return;
   const auto peak = motion_.peak();
   const double largest = 0.5 * (peak.v.dot(system.mass.cwiseAbs() * peak.v) +
                                 peak.u.dot(system.stiffness.cwiseAbs() * peak.u)) +
@@ -92,10 +90,6 @@ auto EnergyBalance::rate(double t, Side side) const -> Flow {
       flow[work] += forces[Eigen::Index(problem_.contacts.size() + j)] * row.velocity;
     }
   }
-  // What no row states is what the equation of motion leaves; contacts that stay closed do no work.
-  if (!problem_.unstated.empty())
-    flow[dissipated] -=
-        now.v.dot(system.mass * now.a + system.damping * now.v + system.stiffness * now.u - force);
   return flow;
 }
 
