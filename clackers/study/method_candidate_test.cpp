@@ -74,12 +74,15 @@ TEST(MethodCandidate, ClaimsWhatItsStepsAndEventsDo) {
   EXPECT_EQ(claim_on("paoli-schatzman", "ball").behaviour, Behaviour::irregular);
   EXPECT_EQ(claim_on("paoli-schatzman", "piecewise").behaviour, Behaviour::irregular);
   EXPECT_EQ(claim_on("paoli-schatzman", "stop").behaviour, Behaviour::proper);
-  // With eta = 0: held, held by its spring, torn open by it, and without contacts.
+  // With eta = 0: held at rest and in motion, torn open by it, and without contacts.
   const cases::Settings plastic{{"eta", 0.0}};
   EXPECT_EQ(claim_on("paoli-schatzman", "stop", plastic).order, 2.0);
   EXPECT_EQ(claim_on("forward-increment-lagrange", "row", plastic).order, 2.0);
   EXPECT_EQ(claim_on("paoli-schatzman", "pressed-oscillator", plastic).behaviour,
             Behaviour::proper);
+  EXPECT_EQ(claim_on("paoli-schatzman", "synchronized-pair", {{"X", 3.0}, {"r", 0.5}, {"eta", 0.0}})
+                .order,
+            2.0);
   const auto torn = claim_on("paoli-schatzman", "two-bars",
                              {{"elements", 8.0}, {"mass", std::string("lumped")}, {"eta", 0.0}});
   EXPECT_EQ(torn.behaviour, Behaviour::irregular);

@@ -137,7 +137,7 @@ TEST(Friction, OfAContactIsLocatedToRounding) {
   for (const auto& settings : disks) {
     const auto test_case = cases::make("oblique-disk", settings);
     for (const auto* name : {"newmark", "central-difference", "rk4"})
-      for (const double steps : {100.0, 1713.0})
+      for (const double steps : {100.0, 713.0})
         EXPECT_LT(error_of(*methods::method(name), test_case, test_case.problem.end / steps), 1e-11)
             << name << " mu " << test_case.problem.frictions[0].limit;
     EXPECT_LT(
@@ -148,12 +148,22 @@ TEST(Friction, OfAContactIsLocatedToRounding) {
 
 TEST(Friction, OfAContactByMoreauAndJeanIsOfFirstOrder) {
   const auto method = methods::method("moreau-jean");
-  for (const auto i : {0, 2, 3}) {
+  for (const auto i : {0, 2}) {
     const auto test_case = cases::make("oblique-disk", disks[i]);
     const double fall =
-        upper_envelope(*method, test_case, 250.0) / upper_envelope(*method, test_case, 4000.0);
-    EXPECT_NEAR(std::log2(fall) / 4.0, 1.0, 0.2) << i;
+        upper_envelope(*method, test_case, 250.0) / upper_envelope(*method, test_case, 2000.0);
+    EXPECT_NEAR(std::log2(fall) / 3.0, 1.0, 0.2) << i;
   }
+}
+
+TEST(Friction, OfASecondRunIsThatOfTheFirst) {
+  const auto problem = cases::make("oblique-disk", disks[2]).problem;
+  const auto prepared = methods::method("rk4")->prepare(problem, 0.01);
+  model::TrajectorySink first(true), second(true);
+  const auto searches = prepared->advance(first).work.event_searches;
+  EXPECT_GT(searches, 5);
+  EXPECT_EQ(prepared->advance(second).work.event_searches, searches);
+  EXPECT_EQ(first.trajectory().u, second.trajectory().u);
 }
 
 // A mass on a spring along a floor that moves; a load lifts it and drops it, so that it bounces, rests,

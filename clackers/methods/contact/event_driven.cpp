@@ -135,7 +135,7 @@ class EventDriven::Loop {
     return constrained_.is_any_active() ? *constrained_stepper_ : *free_stepper_;
   }
 
-  bool is_open() const { return !constrained_.is_any_active() && !stick_slip_.is_any_rubbing(); }
+  bool is_open() const { return !constrained_.is_any_active(); }
   void pass(std::size_t count, auto&& before) { resolution_.pass(count, before); }
 
   // True where nothing can have happened between the two ends of a step.

@@ -47,10 +47,6 @@ class StickSlip {
     sign_.assign(frictions_.size(), 0);
   }
   long long searches() const { return searches_; }
-  /// Whether a row may change in a step in which all gaps stay open.
-  bool is_any_rubbing() const {
-    return std::ranges::any_of(rubs_, [](bool rubs) { return rubs; });
-  }
 
   /// Adds the forces of the rows that slide to those of the load.
   void add_forces(std::span<double> force) const {

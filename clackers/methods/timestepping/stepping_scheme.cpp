@@ -152,7 +152,7 @@ bool SteppingScheme<Dof>::improve_friction(double h) {
     }
     for (std::size_t j = 0; j < frictions_.size(); ++j) {
       const auto& f = problem_.frictions[j];
-      if (f.contact || !holds_[j] || std::abs(friction_[to_index(j)]) < h * f.limit) continue;
+      if (!holds_[j] || std::abs(friction_[to_index(j)]) < h * f.limit) continue;
       holds_[j] = false;
       changes = true;
     }
