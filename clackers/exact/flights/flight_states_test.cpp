@@ -80,6 +80,8 @@ TEST(FlightStates, OfManyMassesAreTheSimulationToARounding) {
         };
         share(x.u[j], state.u[j], bound.u[j]);
         share(x.v[j], state.v[j], bound.v[j]);
+        // A double is no nearer than its own rounding.
+        ASSERT_GE(bound.u[j], 0x1p-53 * std::abs(state.u[j]));
         (is_precise ? widest : widest_in_doubles) =
             std::max(is_precise ? widest : widest_in_doubles, bound.u[j]);
       }
