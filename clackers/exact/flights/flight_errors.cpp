@@ -66,10 +66,13 @@ void FlightErrors::add(const ForcedModes& modes, const Vector& sizes) {
   add_to_ball(modes, sizes);
 }
 
+Vector FlightErrors::sizes_of_squares() const {
+  return (count_ * squares_.diagonal()).cwiseMax(0.0).cwiseSqrt();
+}
+
 void FlightErrors::collapse(const ForcedModes& modes) {
   for (const auto& column : columns_.colwise()) add_to_ball(modes, column);
-  if (squares_.size() > 0)
-    add_to_ball(modes, (count_ * squares_.diagonal()).cwiseMax(0.0).cwiseSqrt());
+  if (squares_.size() > 0) add_to_ball(modes, sizes_of_squares());
   columns_.resize(Eigen::NoChange, 0);
   squares_.resize(0, 0);
   count_ = 0.0;
@@ -234,7 +237,7 @@ Vector FlightErrors::bounds_until(const ForcedModes& modes, const Matrix& rows, 
   Vector bound = bounds_of(carried(modes, ball_, s), modes, rows);
   Vector sizes = Vector::Zero(columns_.rows());
   if (columns_.cols() > 0) sizes = columns_.rowwise().lpNorm<1>();
-  if (squares_.size() > 0) sizes += (count_ * squares_.diagonal()).cwiseMax(0.0).cwiseSqrt();
+  if (squares_.size() > 0) sizes += sizes_of_squares();
   const auto later = modes.sizes(sizes, s, 0.0);
   for (Index i = 0; i < rows.rows(); ++i) bound[i] += modes.bound(rows.row(i).transpose(), later);
   return bound;

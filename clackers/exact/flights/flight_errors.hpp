@@ -54,6 +54,7 @@ class FlightErrors {
   void map(auto&& linear);
   void add_squares(const Matrix& squares, Eigen::Index count);
   void add_to_ball(const ForcedModes& modes, const Vector& sizes);
+  Vector sizes_of_squares() const;
   struct Ball {
     double hard = 0.0;                   // |(y, y'/omega)| of the modes
     double soft = 0.0, soft_rate = 0.0;  // |y| and |y'| of the soft ones
