@@ -33,13 +33,12 @@ void build_slider(Case& test_case, const Values& value, double) {
                                   within(test_case, value, "F"), within(test_case, value, "x0"),
                                   end_of(test_case, value)};
   const auto motion = std::make_shared<const exact::Slider>(p, who);
-  const double rest = motion->rest().nearest();
   test_case.constants = {
       {"d", p.F / p.k, "m", "F/k, within which it may rest; each half swing is less wide by 2 d"},
       {"half_swings", motion->half_swings(), "", "before it rests for ever"},
       {"t_rest", motion->end_of_slip().nearest(), "s", "from then on it rests"},
-      {"u_rest", rest, "m", "where it rests"},
-      {"lost", 0.5 * p.k * (p.x0 - rest) * (p.x0 + rest), "J", "to friction, until it rests"}};
+      {"u_rest", motion->rest().nearest(), "m", "where it rests"},
+      {"lost", motion->lost(), "J", "to friction, until it rests"}};
   use(test_case, motion);
 }
 

@@ -13,6 +13,7 @@
 #include "clackers/exact/certified/digits.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/numerics/wide.hpp"
 
 // The cases with dry friction, against Taylor series of the equation of motion with changes of stick and slip
 // found by bisection: neither sines nor numbers of half swings.
@@ -385,9 +386,20 @@ TEST(FrictionCases, HaveTheirTextbookNumbers) {
   EXPECT_EQ(constant(slider, "half_swings"), 2.0);
   EXPECT_EQ(constant(slider, "u_rest"), 0.25);
   EXPECT_NEAR(constant(slider, "lost"), 0.5 * (1.5625 - 0.0625), 1e-15);
+  // The energy of the spring before and after, just above F/k.
+  for (const double x0 : {0.7 / 3.0 + 0x1p-54, 0.7 / 3.0 + 0x1p-50, 0.3, 0.9, 5.0}) {
+    using Number = numerics::WideReal;
+    const auto rough = make("slider", {{"k", 3.0}, {"F", 0.7}, {"x0", x0}});
+    const Number rest = abs(Number(3.0) * x0 - 2.0 * constant(rough, "half_swings") * Number(0.7)),
+                 lost = (Number(9.0) * x0 * x0 - rest * rest) / 6.0;
+    EXPECT_NEAR(constant(rough, "lost"), double(lost), 1e-15 * double(lost)) << x0;
+  }
   const auto belt = make("belt");
   EXPECT_EQ(constant(belt, "T_stick"), 4.0);
   EXPECT_NEAR(constant(belt, "T_slip"), 2.0 * (std::numbers::pi - std::atan(2.0)), 1e-15);
+  for (const double V : {1e-8, 1e-14})
+    EXPECT_NEAR(constant(make("belt", {{"V", V}}), "T_slip"),
+                double(2.0L * (std::numbers::pi_v<long double> - std::atan(0.5L / V))), 1e-15);
   EXPECT_EQ(belt.motion->at(2.0, Side::right).v[0], 0.25);
   EXPECT_EQ(belt.motion->at(4.0, Side::left).a[0], 0.0);
   EXPECT_EQ(belt.motion->at(4.0, Side::right).a[0], -0.5);
@@ -427,6 +439,18 @@ TEST(FrictionCases, HaveTheirTextbookNumbers) {
   EXPECT_GT(lively.motion->impact_count(2000.0), 50000);
   EXPECT_EQ(lively.motion->at(constant(lively, "t_rest"), Side::right).v[1], 0.0);
 }
+
+#ifdef CLACKERS_HAS_ARB
+// Beside its enclosure.
+TEST(FrictionCases, AForcedSliderNearResonanceHasAllDigitsOfItsAmplitude) {
+  for (const double W : {1.0 + 1e-5, 1.0 - 3e-8, 1.0 + 1e-11}) {
+    const auto forced = make("forced-slider", {{"W", W}});
+    const double amplitude =
+        std::stod(certified::Digits(*forced.motion, 25).at(0.0, Side::right).u[0]);
+    EXPECT_NEAR(constant(forced, "amplitude"), amplitude, 1.2e-16 * amplitude) << W;
+  }
+}
+#endif
 
 TEST(FrictionCases, AreRefusedWithTheReason) {
   EXPECT_REFUSED(make("slider", {{"F", 2.0}}), "not-admissible", "never moves");

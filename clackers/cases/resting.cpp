@@ -245,16 +245,18 @@ void build_plastic(Case& test_case, const Values& value, double) {
   problem.contacts = {model::contact_between(2, 0, 1, 0.0)};
   problem.start = {0.0, VectorXd::Zero(2), VectorXd::Constant(2, V)};
   problem.end = end_of(test_case, value);
-  const double w_c = std::sqrt((k1 + k2) / (m1 + m2) - sigma * sigma), T_c = pi / w_c, T = pi / W;
+  using numerics::Bounded;
+  const auto w_c = Bounded(W) * sqrt((Bounded(m1) * X * X + Bounded(m2)) / (Bounded(m1) + m2)),
+             T_c = Bounded::pi() / w_c, T = Bounded::pi() / W;
   test_case.damped_periods = {2.0 * pi / (X * W), 2.0 * pi / W};
   test_case.constants = {
       {"k1", k1, "N/m", "stiffness of mass 1, above"},
       {"k2", k2, "N/m", "stiffness of mass 2"},
       {"c1", problem.system.damping(0, 0), "N s/m", "damping of mass 1"},
       {"c2", problem.system.damping(1, 1), "N s/m", "damping of mass 2"},
-      {"w_c", w_c, "rad/s", "damped frequency of the masses together"},
-      {"T_c", T_c, "s", "length of each time together; then they are apart for pi/W"},
-      {"factor", std::exp(-sigma * (T_c + T)), "",
+      {"w_c", w_c.nearest(), "rad/s", "damped frequency of the masses together"},
+      {"T_c", T_c.nearest(), "s", "length of each time together; then they are apart for pi/W"},
+      {"factor", exp(-(Bounded(sigma) * (T_c + T))).nearest(), "",
        "of all amplitudes from one T_c + pi/W to the next"}};
   use_flights(test_case);
 }

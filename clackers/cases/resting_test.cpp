@@ -195,6 +195,15 @@ TEST(RestingCases, APlasticPairIsTogetherAndApartByTurns) {
   }
 }
 
+// Damping that is fast against the frequencies, of which no square may be the difference of others.
+TEST(RestingCases, AStronglyDampedPlasticPairHasAllDigitsOfItsFactor) {
+  const auto pair = make("plastic-pair", {{"W", 0x1p-6}, {"sigma", 1.0}, {"t_end", 0.01}});
+  const Number together = std::numbers::pi_v<Number> / (0x1p-6L * std::sqrt(Number(5.0)));
+  EXPECT_NEAR(constant(pair, "T_c"), double(together), 1.2e-16 * double(together));
+  const auto factor = double(std::exp(-together - 64 * std::numbers::pi_v<Number>));
+  EXPECT_NEAR(constant(pair, "factor"), factor, 1.2e-16 * factor);
+}
+
 TEST(RestingCases, AreRefusedWithTheReason) {
   EXPECT_REFUSED(make("ball", {{"eta", 1.0}}), "out-of-range", "never comes to rest");
   EXPECT_REFUSED(make("ball", {{"h0", 0.0}}), "out-of-range", "starts on the floor");

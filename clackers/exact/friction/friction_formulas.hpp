@@ -62,7 +62,7 @@ struct SliderFormulas : FrictionFormulas<Real, SliderFormulas<Real>> {
 template <class Real>
 struct BeltFormulas : FrictionFormulas<Real, BeltFormulas<Real>> {
   using FrictionFormulas<Real, BeltFormulas<Real>>::omega;
-  Real V, D, d, stick, T;
+  Real V, D, d, stick, slip, T;
 
   BeltFormulas() = default;
   explicit BeltFormulas(const BeltParameters& p)
@@ -70,10 +70,10 @@ struct BeltFormulas : FrictionFormulas<Real, BeltFormulas<Real>> {
         V(p.V),
         D((Real(p.limit) - Real(p.kinetic)) / this->k),
         d(Real(p.kinetic) / this->k),
-        stick(Real(2.0) * D / V) {
-    // pi - atan(x) = pi/2 + atan(1/x), without cancellation for small V.
-    T = stick + (Real::pi() + Real(2.0) * atan(V / (omega * D))) / omega;
-  }
+        stick(Real(2.0) * D / V),
+        // pi - atan(x) = pi/2 + atan(1/x), without cancellation for small V.
+        slip((Real::pi() + Real(2.0) * atan(V / (omega * D))) / omega),
+        T(stick + slip) {}
 
   Real instant(long long i) const {
     const Real start = Real(double(i / 2)) * T;

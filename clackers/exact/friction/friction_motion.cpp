@@ -95,6 +95,13 @@ Slider::Slider(const SliderParameters& p, std::string_view who)
   size_ = {p.x0, swing.nearest(), (swing * formulas_.omega).nearest()};
 }
 
+// F times the way, of n half swings 2 (x0 - (2 i + 1) F/k); just above F/k this is what is left of a difference.
+double Slider::lost() const {
+  const WideReal F = problem_.frictions[0].limit, k = problem_.system.stiffness(0, 0),
+                 n = formulas_.n;
+  return static_cast<double>(2 * n * F * (k * WideReal(problem_.start.u[0]) - n * F) / k);
+}
+
 long long Slider::near_flight(double t) const {
   return flights_within(t, formulas_.T, formulas_.n);
 }
@@ -145,10 +152,12 @@ ForcedSlider::ForcedSlider(const ForcedSliderParameters& p, std::string_view who
            "The mass would stop at its turning points." +
                (f.left.is_positive() ? std::string() : near_resonance(f.b)),
            "not-admissible");
-  phi_ = double(std::atan2(f.sin_phi.value, f.cos_phi.value));
+  // Near resonance terms cancel.
+  const ForcedSliderFormulas<numerics::Wide> wide(p);
+  phi_ = static_cast<double>(atan2(wide.sin_phi.value, wide.cos_phi.value));
   require_sliding(who);
   problem_.system.add_load = model::HarmonicLoad({{0, p.P, p.W, phi_}});
-  problem_.start.u[0] = f.x0.nearest();
+  problem_.start.u[0] = wide.x0.nearest();
   const auto own = f.F * sqrt(Bounded(1.0) + f.tan * f.tan), force = abs(f.peak);
   size_ = {f.x0.nearest(), ((force * f.W + own * f.omega) / f.k).nearest(),
            ((force * f.W * f.W + own * f.omega * f.omega) / f.k).nearest()};

@@ -36,6 +36,8 @@ class Slider final : public FlightsBy<FrictionMotion, SliderFormulas> {
   double half_swings() const { return double(formulas_.n); }
   Bounded end_of_slip() const { return instant(formulas_.n); }
   Bounded rest() const { return formulas_.rest(); }
+  /// Energy [J] that friction takes.
+  double lost() const;
 
  private:
   long long near_flight(double t) const override;
@@ -47,7 +49,7 @@ class Belt final : public FlightsBy<FrictionMotion, BeltFormulas> {
   /// Throws InputError unless limit > kinetic.
   Belt(const BeltParameters& p, std::string_view who);
   Bounded stick() const { return formulas_.stick; }
-  Bounded slip() const { return formulas_.T - formulas_.stick; }
+  Bounded slip() const { return formulas_.slip; }
 
  private:
   long long near_flight(double t) const override;
@@ -58,7 +60,7 @@ class ForcedSlider final : public FlightsBy<FrictionMotion, ForcedSliderFormulas
  public:
   /// Throws InputError where there is no such motion.
   ForcedSlider(const ForcedSliderParameters& p, std::string_view who);
-  double amplitude() const { return formulas_.x0.nearest(); }
+  double amplitude() const { return problem_.start.u[0]; }
   double phase() const { return phi_; }
 
  private:
