@@ -15,6 +15,7 @@
 #include "clackers/exact/testing/taylor_simulator.hpp"
 #include "clackers/exact/testing/test_oracle.hpp"
 #include "clackers/model/harmonic_load.hpp"
+#include "clackers/model/problem_file.hpp"
 
 namespace clackers::certified {
 namespace {
@@ -334,6 +335,36 @@ TEST(Digits, OfAProblemAreThoseOfASimulation) {
   }
   EXPECT_GE(held, 5);
   EXPECT_GE(released, 5);
+}
+
+// Doubles put late impacts some units beside their instants; times between the two have the state of the true side, and
+// bounds that hold.
+TEST(Digits, BesideAnImpactAreThoseOfTheTrueSide) {
+  const auto problem = model::problem_from_text(model::example_problem, "example");
+  const PiecewiseMotion motion(problem);
+  Digits digits(motion, 20);
+  TaylorSimulator simulator(problem);
+  int between = 0;
+  for (long long k = 1; k <= motion.impact_count(problem.end); ++k) {
+    auto beside = simulator;
+    const auto found = simulator.next(problem.end);
+    ASSERT_TRUE(found);
+    const double own = motion.impact(k).t, t = double(Real((found->t + Real(own)) / 2));
+    if (t == own || abs(found->t - t) < Real(1e-16) * t) continue;
+    ++between;
+    while (beside.next(t)) {
+    }
+    const auto known = beside.at(t);
+    for (const auto side : {Side::left, Side::right}) {
+      const auto now = digits.at(t, side);
+      const auto rounded = motion.at(t, side), bound = motion.error_bound(t);
+      for (std::size_t i = 0; i < now.v.size(); ++i) {
+        EXPECT_LE(abs(Real(now.v[i]) - known.v[long(i)]), Real(1e-18)) << k;
+        EXPECT_LE(abs(known.v[long(i)] - rounded.v[long(i)]), bound.v[long(i)]) << k;
+      }
+    }
+  }
+  EXPECT_GE(between, 4);
 }
 
 TEST(Digits, OfForcesInBalanceAndOfPlacesOfImpactsAre0) {

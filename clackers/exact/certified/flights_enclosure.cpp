@@ -52,6 +52,28 @@ double FlightsEnclosure::fraction_bits(long long flights) const {
   return 8.0 * (bits + restitution * double(flights + 1));
 }
 
+long long FlightsEnclosure::flight(double t, model::Side side) {
+  auto k = motion_.flight_at(t, side);
+  if (motion_.flight_at(t, model::Side::left) == motion_.flight_at(t, model::Side::right)) {
+    while (k > 0 && order(t, k - 1) < 0) --k;
+    while (order(t, k) > 0) ++k;
+  }
+  return static_cast<long long>(k);
+}
+
+int FlightsEnclosure::order(double t, std::size_t flight) {
+  constexpr long least_bits = 128, most_bits = 4096;
+  const auto event = motion_.event(flight);
+  if (!event || t < event->when.lo || t > event->when.hi) return 0;
+  for (long bits = least_bits; bits <= most_bits; bits *= 2) {
+    const WorkingBits scope(bits);
+    const auto* next = begun(flight + 1);
+    if (next != nullptr && Ball(t) < next->begin()) return -1;
+    if (next != nullptr && next->begin() < Ball(t)) return 1;
+  }
+  return 0;
+}
+
 const BallFlights* FlightsEnclosure::begun(std::size_t flight) {
   constexpr long most_bits = 1 << 15;
   const auto refuse = [](const char* why, const char* allowed) {

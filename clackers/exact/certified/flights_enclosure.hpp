@@ -27,14 +27,15 @@ class FlightsEnclosure : public Enclosure {
  protected:
   const Ball& omega() override { return none_; }
   const Ball& sigma() override { return none_; }
-  long long flight(double t, model::Side side) override {
-    return static_cast<long long>(motion_.flight_at(t, side));
-  }
+  /// Where t is the motion's own instant of an event, `side` decides; next to it the true one.
+  long long flight(double t, model::Side side) override;
   KinematicBalls at_now(long long k, double t) override;
   ImpactBalls impact_now(long long k) override;
 
  private:
   const model::Contact<>* holding(double t) const;
+  /// The sign of t less the instant that ends this flight, where that is a question of digits, and otherwise 0.
+  int order(double t, std::size_t flight);
   /// Null where it takes more bits.
   const BallFlights* begun(std::size_t flight);
 

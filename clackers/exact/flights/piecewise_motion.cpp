@@ -47,7 +47,7 @@ bool PiecewiseMotion::may_end(std::size_t flight, double t) const {
   const auto& ends = flights_[flight].ends;
   if (!ends || !(ends->when.lo <= t && t <= ends->when.hi)) return false;
   const auto i = ends->contacts.front();
-  return i >= problem_.contacts.size() || is_held(flight, i);
+  return t != flights_[flight + 1].t || i >= problem_.contacts.size() || is_held(flight, i);
 }
 
 Kinematics PiecewiseMotion::in_flight(const Flight& flight, double t) const {

@@ -134,7 +134,7 @@ class PiecewiseMotion : public model::Motion {
   model::Kinematics in_flight(const Flight& flight, double t) const;
   bool is_held(std::size_t flight, std::size_t contact) const;
   std::vector<std::size_t> held_in(std::size_t regime) const;
-  /// Whether it ends at t give or take the error of that, without an impact: by a release or a spring.
+  /// Whether it ends at t give or take the error of that. At the instant of an impact itself the side decides.
   bool may_end(std::size_t flight, double t) const;
   FlightErrors errors_after(const Flight& flight, double s) const;
   /// What rounding in doubles does to z, s seconds into the flight.
