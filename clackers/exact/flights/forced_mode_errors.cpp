@@ -155,23 +155,24 @@ Vector ForcedModes::steady_sizes(int order, double t) const {
   return most;
 }
 
-// The energy of a mode, rate^2 + omega^2 y^2, does not grow where nothing pushes it.
+// The energy of a mode, rate^2 + omega^2 y^2, does not grow where nothing pushes it. What a constant force adds is
+// bounded by what it adds without stiffness, and omega^2 y of that.
 ForcedModes::Sizes ForcedModes::sizes(const Vector& z, double s, double push) const {
   const Index n = dof();
   Sizes size{Vector(n), Vector(n)};
   for (Index j = 0; j < n; ++j) {
-    const double omega = system_.modes()[std::size_t(j)].omega;
+    const auto& mode = system_.modes()[std::size_t(j)];
+    const double omega = mode.omega;
     size.rate[j] = std::sqrt(z[n + j] * z[n + j] + omega * omega * z[j] * z[j]);
     size.y[j] = std::abs(z[j]) + s * std::abs(z[n + j]);
-    if (omega > 0.0) {
-      size.y[j] = std::min(size.y[j], size.rate[j] / omega);
-    } else if (push > 0.0 && !push_.empty()) {
-      const auto& [y, rate] = push_[std::size_t(j)];
-      const double added =
-          numerics::pushed(system_.modes()[std::size_t(j)], {0.0, std::abs(rate)}, s).rate;
-      size.rate[j] += added;
-      size.y[j] += s * (std::abs(y) + added);
-    }
+    if (omega > 0.0) size.y[j] = std::min(size.y[j], size.rate[j] / omega);
+    if (push == 0.0 || push_.empty()) continue;
+    const auto& [y, rate] = push_[std::size_t(j)];
+    const numerics::Mode loose(mode.sigma, 0.0);
+    const double rate_added = numerics::pushed(loose, {0.0, std::abs(rate)}, s).rate;
+    const double y_added = s * (std::abs(y) + rate_added);
+    size.y[j] += y_added;
+    size.rate[j] += rate_added + omega * (1.0 + omega * s) * y_added;
   }
   return size;
 }

@@ -41,7 +41,8 @@ ForcedModes::ForcedModes(const model::ImpactProblem<>& problem, std::string_view
       damping_(problem.system.damping.sparseView()),
       stiffness_(problem.system.stiffness.sparseView()),
       onto_(basis),
-      offset_(offset) {
+      offset_(offset),
+      seconds_(problem.end) {
   const auto& system = problem.system;
   const auto* load = system.add_load.target<model::HarmonicLoad>();
   if (system.nonlinear || (system.add_load && load == nullptr))
@@ -126,14 +127,13 @@ void ForcedModes::add_force(const Eigen::VectorXcd& applied, double frequency,
                           2.0 * mode.sigma * frequency);
     const Complex load_of_mode = g[n + j] + (2.0 * mode.sigma + turn) * g[j];
     if (load_of_mode == 0.0 && g[j] == 0.0) continue;
-    const double size = mode.omega_square + frequency * frequency;
-    if (size == 0.0) {
+    if (frequency == 0.0 && mode.omega * seconds_ <= 1.0) {
       push_.resize(std::size_t(n));
       push_[std::size_t(j)].y += g[j].real();
       push_[std::size_t(j)].rate += g[n + j].real();
       continue;
     }
-    if (std::abs(dynamic) < 1e-6 * size) {
+    if (std::abs(dynamic) < 1e-6 * (mode.omega_square + frequency * frequency)) {
       const numerics::Beat beat(mode, frequency);
       const numerics::BeatForm y{beat.scale * load_of_mode, 0.0};
       force.resonances.push_back({j, beat, y, y.derivative(beat)});
@@ -241,7 +241,7 @@ Vector ForcedModes::advanced(const Vector& z, double s, double push) const {
     const auto now = numerics::advance(mode, {z[j], z[n + j]}, s);
     later[j] = now.y;
     later[n + j] = now.rate;
-    if (push == 0.0 || push_.empty() || mode.omega > 0.0) continue;
+    if (push == 0.0 || push_.empty()) continue;
     const auto more = numerics::pushed(mode, push_[std::size_t(j)], s);
     later[j] += push * more.y;
     later[n + j] += push * more.rate;

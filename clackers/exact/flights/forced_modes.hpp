@@ -20,9 +20,9 @@
 namespace clackers::exact {
 
 /// M a + C v + K u = f(t) between impacts: modes of free vibration, complex ones where the damping
-/// couples them, and the steady response to harmonic forces. Modes without stiffness have none to a
-/// constant force, which pushes them. A state z has the modal displacements
-/// first and then their rates; u, v and a are matrices times z, and M^-1 f more of a.
+/// couples them, and the steady response to harmonic forces. Modes that turn by a radian at most up to the end, as
+/// those without stiffness, have none to a constant force, which pushes them from the start of each flight. A state z
+/// has the modal displacements first and then their rates; u, v and a are matrices times z, and M^-1 f more of a.
 ///
 /// The error of a flight is bounded by the defect of what was computed: the modes as they stand solve
 /// their own equations but for rounding, and what they leave of those of the structure acts as a
@@ -136,8 +136,8 @@ class ForcedModes {
   Vector steady(double t) const;
   /// Bounds up to t on the derivatives of u of that order in it.
   Vector steady_sizes(int order, double t) const;
-  /// z of the motion without the steady response s seconds later; `push` 0 without constant forces on
-  /// modes that have no stiffness.
+  /// z of the motion without the steady response s seconds later; `push` 0 without the constant forces that
+  /// push.
   Vector advanced(const Vector& z, double s, double push = 1.0) const;
   /// dz/dt of the modes alone.
   Vector rate(const Vector& z) const;
@@ -210,6 +210,7 @@ class ForcedModes {
   Basis onto_;
   numerics::ModalSystem system_;  // of u - offset
   Vector offset_;
+  double seconds_ = 0.0;                    // up to the end
   Matrix impulse_response_;                 // z by impulses, where damping couples modes
   Matrix basis_residual_, force_residual_;  // of z: its own error, and the rate of it
   Vector square_errors_;                    // of modes without a defect, instead of the residuals

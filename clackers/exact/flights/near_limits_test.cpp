@@ -235,5 +235,58 @@ TEST(PiecewiseMotion, ALoadAtResonanceMovesAMassFromRest) {
   }
 }
 
+// Free chains under their weight, whose stiffness of doubles is not that of a rigid motion but for roundings: all masses fall
+// alike. Damped as well, and with dashpots that couple the modes.
+TEST(PiecewiseMotion, FreeChainsFallAsTheSimulationWithinBoundsNearRounding) {
+  Box box(3);
+  for (int trial = 0; trial < trials(40); ++trial) {
+    const auto n = Eigen::Index(2 + trial % 7);
+    model::ImpactProblem<> problem;
+    auto& s = problem.system;
+    s.mass = s.damping = s.stiffness = MatrixXd::Zero(n, n);
+    std::vector<model::HarmonicForce> weights;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      s.mass(i, i) = box.uniform(0.5, 3.0);
+      weights.push_back({int(i), -9.81 * s.mass(i, i), 0.0, 0.0});
+    }
+    for (Eigen::Index i = 0; i + 1 < n; ++i) {
+      const VectorXd apart = VectorXd::Unit(n, i) - VectorXd::Unit(n, i + 1);
+      s.stiffness += box.uniform(0.5, 9.0) * apart * apart.transpose();
+      if (trial % 3 == 2) s.damping += box.uniform(0.0, 0.3) * apart * apart.transpose();
+    }
+    if (trial % 3 == 1) s.damping = 0.1 * s.mass;
+    s.add_load = model::HarmonicLoad(weights);
+    problem.start = {0.0, VectorXd::Zero(n), VectorXd::Zero(n)};
+    problem.end = 2.0;
+    const PiecewiseMotion motion(problem);
+    TaylorSimulator simulator(problem);
+    for (const double t : {0.5, 1.0, 2.0}) {
+      simulator.next(t);
+      const auto known = simulator.at(t);
+      const auto now = motion.at(t, Side::left), bound = motion.error_bound(t);
+      for (Eigen::Index j = 0; j < n; ++j) {
+        EXPECT_LE(abs(known.u[j] - now.u[j]), bound.u[j]) << trial;
+        EXPECT_LE(abs(known.v[j] - now.v[j]), bound.v[j]) << trial;
+        EXPECT_LE(abs(known.a[j] - now.a[j]), bound.a[j]) << trial;
+      }
+      EXPECT_LE(bound.u.maxCoeff(), 1e-11 * now.u.cwiseAbs().maxCoeff()) << trial;
+    }
+    EXPECT_LT(motion.envelope(2.0).u.maxCoeff(), 30.0) << trial;
+  }
+}
+
+// A free mass under a force that hardly turns: its displacement is the difference of numbers 1e16 times as large.
+TEST(PiecewiseMotion, IsRefusedWhereItsBoundIsNotSmallAgainstIt) {
+  model::ImpactProblem<> problem;
+  problem.system.mass = MatrixXd::Identity(1, 1);
+  problem.system.stiffness = problem.system.damping = MatrixXd::Zero(1, 1);
+  problem.system.add_load = model::HarmonicLoad({{0, 1.0, 1e-8, 0.0}});
+  problem.start = {0.0, VectorXd::Zero(1), VectorXd::Zero(1)};
+  problem.end = 1.0;
+  EXPECT_REFUSED(PiecewiseMotion(problem), "not-admissible", "t = 1 s", "1 % of that");
+  problem.system.add_load = model::HarmonicLoad({{0, 1.0, 1e-4, 0.0}});
+  EXPECT_LT(PiecewiseMotion(problem).error_bound(1.0).u[0], 1e-5);
+}
+
 }  // namespace
 }  // namespace clackers::exact

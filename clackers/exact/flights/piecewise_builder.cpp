@@ -27,6 +27,7 @@ namespace {
 
 constexpr double most_bytes = 2e9;
 constexpr Index most_kept = 64;  // columns of errors of a flight that is over
+constexpr double most_error = 0.01;  // of displacements, over the largest
 
 // Symmetric; a product such as S' K S leaves 1e-12 of the largest eigenvalue.
 void require_no_negative_eigenvalue(std::string_view who, const char* name, const MatrixXd& x,
@@ -252,6 +253,23 @@ PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, std::str
             "redundant-contacts");
     }
   Builder(problem, {}, 100000, *this).build();
+  // Envelopes add up parts that may cancel; loads alone come no farther than they push free masses.
+  VectorXd pushed = VectorXd::Zero(dof());
+  for (const auto& force : regimes_[0].forces()) pushed += force.acceleration.cwiseAbs();
+  const double bound = error_bound(end_).u.maxCoeff(),
+               reach =
+                   problem.start.u.cwiseAbs().maxCoeff() +
+                   end_ * (problem.start.v.cwiseAbs().maxCoeff() + 0.5 * end_ * pushed.maxCoeff()),
+               size = std::min(reach,
+                               std::max(envelope(0.0).u.maxCoeff(), envelope(end_).u.maxCoeff()));
+  if (!(bound <= most_error * size))
+    throw InputError(
+        fmt::format(
+            "{}: displacements at the end, t = {:.6g} s, are known to {:.3g} m, and are {:.3g} m "
+            "at most; allowed: motions known to 1 % of that. End the run earlier, or change a "
+            "number of the problem.",
+            who_, end_, bound, size),
+        "not-admissible");
 }
 
 PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, const ImpactLaw& law,

@@ -193,9 +193,9 @@ Kinematics PiecewiseMotion::envelope(double t) const {
   const auto& flight = flights_[flight_at(t, Side::left)];
   const auto& modes = this->modes(flight);
   auto size = modes.sizes(modes.advanced(flight.free, t - flight.t), 0.0);
-  // Of a mode without stiffness the present displacement.
+  // Of a mode that turns by a radian at most up to the end the present displacement.
   for (Index j = 0; j < modes.dof(); ++j)
-    if (const double omega = modes.system().modes()[std::size_t(j)].omega; omega > 0.0)
+    if (const double omega = modes.system().modes()[std::size_t(j)].omega; omega * end_ > 1.0)
       size.y[j] = size.rate[j] / omega;
   const auto of = [&](int order) {
     VectorXd most = (order == 0 ? 1.0 : 0.0) * modes.offset().cwiseAbs();

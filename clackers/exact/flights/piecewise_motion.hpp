@@ -53,7 +53,8 @@ class PiecewiseMotion : public model::Motion {
   /// same direction, and as ForcedModes does; and where the motion is not available: a
   /// contact that is approached to less than the error, a force that comes so near to 0, impacts
   /// whose order decides and is not certain, two contacts of coupled masses that
-  /// accumulate together, more than 1e5 flights, more than 2 GB of errors.
+  /// accumulate together, more than 1e5 flights, more than 2 GB of errors; displacements at
+  /// the end that are not known to 1 % of the largest.
   explicit PiecewiseMotion(const model::ImpactProblem<>& problem,
                            std::string_view who = "piecewise");
   /// The motion in double precision from start.t on, whatever the error: what it would not let be

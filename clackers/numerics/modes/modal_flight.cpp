@@ -59,22 +59,27 @@ ModalState advance(const Mode& mode, const ModalState& start, double s) {
 }
 
 ModalState pushed(const Mode& mode, const ModalState& push, double s) {
-  const double x = 2.0 * mode.sigma * s;
-  double rate = s, displacement = 0.0;  // of a unit force
-  if (x > 0.5) {
-    rate = -std::expm1(-x) / (2.0 * mode.sigma);
-    displacement = (s - rate) / (2.0 * mode.sigma);
+  const double rate = advance(mode, {0.0, 1.0}, s).y;  // of a unit force
+  double displacement = 0.0;
+  if (mode.sigma > 0.0 && !mode.oscillates() && mode.w * s > 0.5) {
+    const auto mean = [](double x) { return x != 0.0 ? -std::expm1(-x) / x : 1.0; };
+    const double fast = mode.sigma + mode.w;
+    displacement = s * (mean(mode.omega_square / fast * s) - mean(fast * s)) / (2.0 * mode.w);
+  } else if (mode.omega * s > 1.0) {
+    displacement = (1.0 - advance(mode, {1.0, 0.0}, s).y) / mode.omega_square;
   } else {
-    // s^2 times 1/2! - x/3! + x^2/4! - ...
-    double term = 0.5, sum = 0.0;
-    for (int k = 3; std::abs(term) > 0.25 * epsilon; ++k) {
+    // s^2 times the power series of y'' = 1 - 2 sigma y' - omega^2 y.
+    const double x = 2.0 * mode.sigma * s, square = mode.omega_square * s * s;
+    double before = 0.0, term = 0.5, sum = 0.0;
+    for (int k = 3; std::abs(term) + std::abs(before) > 0.25 * epsilon; ++k) {
       sum += term;
-      term *= -x / k;
+      const double next = -(x * (k - 1) * term + square * before) / (k * (k - 1));
+      before = std::exchange(term, next);
     }
-    rate *= 1.0 - x * sum;
     displacement = s * s * sum;
   }
-  return {push.y * s + push.rate * displacement, push.rate * rate};
+  return {push.y * (rate + 2.0 * mode.sigma * displacement) + push.rate * displacement,
+          push.rate * rate - push.y * mode.omega_square * displacement};
 }
 
 std::optional<ModalSystem> ModalSystem::make(const MatrixXd& mass, const MatrixXd& damping,

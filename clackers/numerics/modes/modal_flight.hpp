@@ -38,7 +38,8 @@ struct ModalState {
 /// r = rate + sigma y, c = cos w s and n = sin(w s)/w, or cosh and sinh, or 1 and s.
 ModalState advance(const Mode& mode, const ModalState& start, double s);
 
-/// The same from rest where omega is 0 and a constant force adds push.y to y' and push.rate to y''.
+/// The same from rest where a constant force adds push.y to y' and push.rate to y''. It does not cancel where omega s is
+/// small, as displacements about the static one do.
 ModalState pushed(const Mode& mode, const ModalState& push, double s);
 
 /// M a + C v + K u = 0 as a sum of modes,

@@ -14,6 +14,18 @@ double size(const Mode& mode, const ModalState& now) {
   return std::sqrt(now.rate * now.rate + mode.omega * mode.omega * now.y * now.y);
 }
 
+bool acts(const ModalState& push) { return push.y != 0.0 || push.rate != 0.0; }
+
+// A bound on the size of a mode with omega > 0 that a constant force pushes, for `reach` seconds, omega reach <= 1/8:
+// |y'| <= |y0'| + m (|push.rate| + omega^2 |y|) with m <= reach, 1/(2 sigma), and |y| grows by as much a second.
+double pushed_size(const Mode& mode, const ModalState& now, const ModalState& push, double reach) {
+  const double square = mode.omega * mode.omega;
+  const double m = mode.sigma > 0.0 ? std::min(reach, 0.5 / mode.sigma) : reach;
+  const double y = std::abs(now.y) + reach * std::abs(push.y);
+  const double rate = (std::abs(now.rate) + m * (std::abs(push.rate) + square * y)) * (64.0 / 63.0);
+  return std::hypot(rate, mode.omega * (y + reach * rate));
+}
+
 }  // namespace
 
 ModalForm::ModalForm(const ModalSystem& system, std::span<const double> b,
@@ -111,7 +123,8 @@ void FormAhead::begin(const ModalSystem& system, const ModalForm& form,
     const Mode& mode = system.modes()[from.mode];
     const ModalState& now = start[from.mode];
     Part& to = parts_[i];
-    to.oscillates = mode.oscillates();
+    to.push = push.empty() ? ModalState{} : push[from.mode];
+    to.oscillates = mode.oscillates() && !acts(to.push);
     to.sigma = mode.sigma;
     to.w = mode.w;
     to.curvature = from.bound[2];
@@ -134,12 +147,12 @@ void FormAhead::begin(const ModalSystem& system, const ModalForm& form,
       to.mode = &mode;
       to.start = now;
       to.form = &from;
-      to.push = push.empty() ? ModalState{} : push[from.mode];
-      if (to.push.y != 0.0 || to.push.rate != 0.0) {
+      if (acts(to.push)) {
         for (int k = 1; k < 4; ++k)
           constants_[k] += sign * (from.y[k - 1] * to.push.y + from.rate[k - 1] * to.push.rate);
-        to.size = mode.sigma > 0.0 ? std::max(to.size, std::abs(to.push.rate) / (2.0 * mode.sigma))
-                                   : infinity;
+        to.size = mode.omega == 0.0 && mode.sigma > 0.0
+                      ? std::max(to.size, std::abs(to.push.rate) / (2.0 * mode.sigma))
+                      : infinity;
       }
     }
     faster += from.bound[0] * to.size;
@@ -197,12 +210,18 @@ LocalBound FormAhead::ahead(double s, double level, bool is_whole) const {
     } else {
       auto now = advance(*part.mode, part.start, s);
       z = size(*part.mode, now);
-      if (part.push.y != 0.0 || part.push.rate != 0.0) {
+      if (acts(part.push)) {
         const auto more = pushed(*part.mode, part.push, s);
         now.y += more.y;
         now.rate += more.rate;
-        // The rate goes to its limit without turning.
-        if (part.mode->sigma > 0.0) z = std::max(std::abs(now.rate), part.size);
+        if (part.mode->omega > 0.0) {
+          const double reach = 0.125 / part.mode->omega;
+          ahead.reach = std::min(ahead.reach, reach);
+          z = pushed_size(*part.mode, now, part.push, reach);
+        } else if (part.mode->sigma > 0.0) {
+          // The rate goes to its limit without turning.
+          z = std::max(std::abs(now.rate), part.size);
+        }
       }
       const auto& form = *part.form;
       ahead.value += sign_ * (form.y[0] * now.y + form.rate[0] * now.rate);

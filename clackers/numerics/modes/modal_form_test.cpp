@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -62,6 +63,76 @@ TEST(ModalForm, ItsDerivativesAreThoseOfTheMotion) {
     EXPECT_GE(bound, largest) << k_th;
     EXPECT_LE(bound, 4.0 * largest) << k_th;
   }
+}
+
+// The state of a mode, and s, under a constant force, from (y, y', 1) by the exponential of the matrix of their
+// equation: its series in long double over s/2^30, squared 30 times.
+ModalState by_squaring(const Mode& mode, const ModalState& start, const ModalState& push,
+                       double s) {
+  using Matrix = Eigen::Matrix<long double, 3, 3>;
+  Matrix rate;
+  rate << 0.0L, 1.0L, push.y, -mode.omega_square, -2.0L * mode.sigma, push.rate, 0.0L, 0.0L, 0.0L;
+  rate *= std::ldexp((long double)s, -30);
+  // Less 1, whose rounding would be squared as well.
+  Matrix change = rate * (Matrix::Identity() + rate / 2 * (Matrix::Identity() + rate / 3));
+  for (int k = 0; k < 30; ++k) change = Matrix(2 * change + change * change);
+  const long double y = start.y, v = start.rate;
+  return {double(y + change(0, 0) * y + change(0, 1) * v + change(0, 2)),
+          double(v + change(1, 0) * y + change(1, 1) * v + change(1, 2))};
+}
+
+TEST(ModalFlight, AConstantForcePushesEveryModeWithoutCancellation) {
+  const ModalState push{0.3, -0.8};
+  for (const double sigma : {0.0, 1e-9, 0.01, 0.4, 1.0, 3.0, 40.0})
+    for (const double square : {0.0, 1.6e-16, -1e-14, 1e-6, 0.16, 0.9, 1.0, 4.0})
+      for (const double s : {1e-3, 0.3, 1.0, 2.7, 9.0}) {
+        const Mode mode(sigma, square);
+        const auto now = pushed(mode, push, s), known = by_squaring(mode, {}, push, s);
+        const double size = std::abs(known.y) + std::abs(known.rate) * s;
+        EXPECT_NEAR(now.y, known.y, 3e-15 * size) << sigma << ' ' << square << ' ' << s;
+        EXPECT_NEAR(now.rate, known.rate, 3e-15 * (std::abs(known.rate) + size / s))
+            << sigma << ' ' << square << ' ' << s;
+      }
+}
+
+// A soft mode that a constant force pushes, and what is known of it ahead.
+TEST(FormAhead, PushesOfSoftModesAreWholeDerivativesWithBounds) {
+  for (const double sigma : {0.0, 0.05, 2.0})
+    for (const double omega : {1e-8, 0.02, 0.125}) {
+      const Mode mode(sigma, omega * omega);
+      const ModalSystem system({mode}, Eigen::MatrixXd::Identity(1, 1),
+                               Eigen::MatrixXd::Identity(1, 1));
+      const std::vector<ModalState> start{{0.4, -1.0}}, push{{0.2, 0.7}};
+      const ModalForm form(system, Eigen::Vector2d(1.0, 0.3), 2.0);
+      FormAhead ahead;
+      ahead.begin(system, form, start, -1.0, push);
+      // Of f = y + 0.3 y' and its derivatives, by y'' = ... from the equation.
+      const auto known = [&](double s) {
+        const auto [y, rate] = by_squaring(mode, start[0], push[0], s);
+        std::array<double, 5> ys{y, rate + push[0].y}, f{};
+        std::array<double, 5> rates{rate, 0.0};
+        for (std::size_t k = 1; k < 5; ++k) {
+          rates[k] = -mode.omega_square * ys[k - 1] - 2.0 * sigma * rates[k - 1] +
+                     (k == 1 ? push[0].rate : 0.0);
+          ys[k] = rates[k - 1] + (k == 1 ? push[0].y : 0.0);
+        }
+        for (std::size_t k = 0; k < 5; ++k) f[k] = -(ys[k] + 0.3 * rates[k]) - (k == 0 ? 2.0 : 0.0);
+        return f;
+      };
+      for (double s = 0.0; s < 8.0; s += 0.37) {
+        const auto now = ahead.whole(s);
+        const auto here = known(s);
+        EXPECT_NEAR(now.value, here[0], 1e-13);
+        EXPECT_NEAR(now.slope, here[1], 1e-13);
+        EXPECT_NEAR(now.second, here[2], 1e-13);
+        EXPECT_NEAR(now.third, here[3], 1e-13);
+        for (double x = 0.0; x < 8.0 && x <= now.reach; x += 0.1) {
+          EXPECT_LE(std::abs(known(s + x)[2]), now.curvature * (1.0 + 1e-14));
+          EXPECT_LE(std::abs(known(s + x)[3]), now.third_bound * (1.0 + 1e-14));
+        }
+        EXPECT_LE(ahead(s).value, here[0] + 1e-13);
+      }
+    }
 }
 
 // A free mode, damped or not, that a constant force pushes, beside an oscillating mode and a harmonic
