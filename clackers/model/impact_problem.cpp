@@ -32,18 +32,8 @@ void require_symmetric(std::string_view what, const Eigen::MatrixXd& x, Index do
   for (Index j = 0; j < dof; ++j)
     for (Index i = 0; i < dof; ++i)
       require_finite("problem", fmt::format("{}({},{})", what, i + 1, j + 1), x(i, j));
-  // Two products such as S^T M S leave 2 n roundings of the largest terms; 16 is for terms that
-  // cancel. A slip of the pen is many orders larger.
-  const double allowed =
-      32.0 * double(dof) * std::numeric_limits<double>::epsilon() * x.cwiseAbs().maxCoeff();
-  for (Index j = 0; j < dof; ++j)
-    for (Index i = 0; i < j; ++i)
-      if (!(std::abs(x(i, j) - x(j, i)) <= allowed))
-        throw InputError(
-            fmt::format("problem: {0}({1},{2}) = {3} and {0}({2},{1}) = {4}; allowed: a "
-                        "symmetric matrix.",
-                        what, i + 1, j + 1, x(i, j), x(j, i)),
-            code);
+  if (const auto entry = asymmetric_entry(x))
+    throw InputError("problem: " + text_of_asymmetry(what, x, *entry), code);
 }
 
 // A pivot that is no more than the rounding of its factorization, n units of its diagonal entry,
@@ -94,6 +84,26 @@ void require_friction(const Friction<>& friction, std::size_t number, Index dof,
 }
 
 }  // namespace
+
+// Two products such as S^T M S leave 2 n roundings of the terms, which these diagonal entries bound; 16 is for
+// terms that cancel. A slip of the pen is many orders larger.
+std::optional<std::pair<Index, Index>> asymmetric_entry(const Eigen::MatrixXd& x) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  for (Index j = 0; j < x.cols(); ++j)
+    for (Index i = 0; i < j; ++i) {
+      const double size = std::sqrt(std::abs(x(i, i))) * std::sqrt(std::abs(x(j, j)));
+      const double allowed = epsilon * (32.0 * double(x.rows()) * size + 4.0 * std::abs(x(i, j)));
+      if (!(std::abs(x(i, j) - x(j, i)) <= allowed)) return std::pair(i, j);
+    }
+  return std::nullopt;
+}
+
+std::string text_of_asymmetry(std::string_view name, const Eigen::MatrixXd& x,
+                              const std::pair<Index, Index>& entry) {
+  const auto [i, j] = entry;
+  return fmt::format("{0}({1},{2}) = {3} and {0}({2},{1}) = {4}; allowed: a symmetric matrix.",
+                     name, i + 1, j + 1, x(i, j), x(j, i));
+}
 
 void validate(const ImpactProblem<>& problem) {
   const auto& [mass, damping, stiffness, load, nonlinear] = problem.system;

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "clackers/model/system.hpp"
@@ -64,6 +66,13 @@ struct ImpactProblem {
 
   Eigen::Index dof() const { return system.dof(); }
 };
+
+/// The first entry (i, j), i < j, that differs from (j, i) by more than rounding: 4 units of itself and 32 n units of
+/// sqrt |x_ii x_jj|, which bounds it in a positive definite matrix.
+std::optional<std::pair<Eigen::Index, Eigen::Index>> asymmetric_entry(const Eigen::MatrixXd& x);
+/// The refusal of it.
+std::string text_of_asymmetry(std::string_view name, const Eigen::MatrixXd& x,
+                              const std::pair<Eigen::Index, Eigen::Index>& entry);
 
 /// Throws InputError unless sizes fit, all numbers are finite, the mass matrix is symmetric
 /// positive definite, damping and stiffness are symmetric, restitutions lie in [0, 1], no contact

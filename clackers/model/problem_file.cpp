@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -84,22 +85,11 @@ class Reader : public TomlReader {
     for (std::size_t i = 0; i < count; ++i)
       values.row(Index(i)) =
           vector(*rows->get(i), fmt::format("row {} of {}", i + 1, what), Index(count)).transpose();
-    require_symmetric(node, what, values);
-    return values;
-  }
-
- private:
-  void require_symmetric(const toml::node& node, const std::string& what, const MatrixXd& x) const {
-    const double allowed =
-        32.0 * double(x.rows()) * std::numeric_limits<double>::epsilon() * x.cwiseAbs().maxCoeff();
-    for (Index j = 0; j < x.rows(); ++j)
-      for (Index i = 0; i < j; ++i)
-        if (!(std::abs(x(i, j) - x(j, i)) <= allowed))
-          fail(
-              node,
-              fmt::format("{0}({1},{2}) = {3} and {0}({2},{1}) = {4}; allowed: a symmetric matrix.",
-                          what, i + 1, j + 1, x(i, j), x(j, i)),
-              "not-symmetric");
+    if (const auto entry = asymmetric_entry(values))
+      fail(node, text_of_asymmetry(what, values, *entry), "not-symmetric");
+    // One matrix for all: the mean of both entries, rounded once.
+    return values.binaryExpr(values.transpose(),
+                             [](double a, double b) { return std::midpoint(a, b); });
   }
 };
 

@@ -47,7 +47,8 @@ extern const std::string_view example_problem;
 ///     coefficient = 0.25          # of its force, in place of limit and kinetic
 ///
 /// in TOML, as JSON (this object, or one with it as member "problem"), or as the lines of
-/// problem_file_text(). A number may be a text with a fraction, "1/3".
+/// problem_file_text(). A number may be a text with a fraction, "1/3". Of entries of a matrix that differ by
+/// rounding (asymmetric_entry()) both become their mean.
 ///
 /// `name` stands in messages, with the line. Throws InputError for other text, unknown keys
 /// (with did-you-mean), missing ones, wrong kinds and sizes, matrices that are not symmetric, or of

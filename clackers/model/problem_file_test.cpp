@@ -97,6 +97,17 @@ TEST(ProblemFile, NegativeZeroIsZero) {
   }
 }
 
+TEST(ProblemFile, AMatrixThatRoundingLeftUnsymmetricIsTheMeanOfBothEntries) {
+  const auto problem = read(with("K = [[2, 0], [0, 9]]", "K = [[2, 1.00000000000004], [1, 9]]"));
+  const auto& stiffness = problem.system.stiffness;
+  EXPECT_EQ(stiffness(0, 1), stiffness(1, 0));
+  EXPECT_EQ(stiffness(0, 1), 1.00000000000002);
+  // The neighbour of 1 and 1: their mean is halfway, and even.
+  EXPECT_EQ(read(with("K = [[2, 0], [0, 9]]", "K = [[2, 1], [1.0000000000000002, 9]]"))
+                .system.stiffness(1, 0),
+            1.0);
+}
+
 TEST(ProblemFile, BadTextIsRefusedWithItsLine) {
   EXPECT_REFUSED(read("M = [[1]\nend = "), "bad-syntax", "f.toml:");
   EXPECT_REFUSED(read(with("end = 20", "ned = 20")), "unknown-name",
@@ -130,6 +141,9 @@ TEST(ProblemFile, BadSizesAndMatricesAreRefused) {
                  "direction = 0");
   EXPECT_REFUSED(read(with("K = [[2, 0], [0, 9]]", "K = [[2, 1], [0, 9]]")), "not-symmetric",
                  "f.toml:2", "K(1,2) = 1 and K(2,1) = 0");
+  // Rounding of another entry, not of this one.
+  EXPECT_REFUSED(read(with("C = [[0.2, 0], [0, 0.1]]", "C = [[1e6, 1e-3], [1.000001e-3, 0.1]]")),
+                 "not-symmetric", "f.toml:3", "C(1,2) = 0.001");
   EXPECT_REFUSED(read(with("M = [[2, 0], [0, 1]]", "M = [[1, 2], [2, 1]]")),
                  "not-positive-definite", "f.toml: problem: the mass matrix");
   EXPECT_REFUSED(read(with("u = [1, -0.5]", "u = [-1, 0.5]")), "starts-in-contact", "contact 1");
