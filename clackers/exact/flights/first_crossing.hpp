@@ -133,6 +133,12 @@ Crossing first_crossing(auto&& gap, auto&& error, double level, double from, dou
       }
     }
     const auto found = settle(gap, error, level, near);
+    if (found.status == uncertain && found.s > until) {
+      // It falls up to there; what it comes to later does not matter.
+      const double last = gap.whole(until).value, here = error(until);
+      if (last > certain_gap * here) return {};
+      return {uncertain, until, last, here, near};
+    }
     if (found.status != none) return found;
     from = std::max(found.s, std::nextafter(from, until));
   }
