@@ -61,11 +61,11 @@ std::vector<record::Column> columns_at(const std::vector<double>& places, bool i
     else
       add(fmt::format("stress{}", i + 1), "N/m^2", fmt::format("stress at x = {} m", places[i]));
   }
-  const auto* energy_of = is_string ? "energy of the string" : "energy of all bars";
   add("force", "N", "of the contact");
   add("impulse", "N s", "of the contact so far");
-  add("kinetic", "J", energy_of);
-  add("elastic", "J", energy_of);
+  add("kinetic", "J",
+      is_string ? "energy of the string" : "energy of the bars, and of a mass on one");
+  add("elastic", "J", is_string ? "energy of the string" : "energy of the bars");
   add("potential", "J", "energy of the weight, 0 at the start");
   return columns;
 }
