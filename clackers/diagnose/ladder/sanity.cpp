@@ -20,10 +20,10 @@ constexpr double same_roundings = 8.0;
 constexpr std::size_t least_common_rows = 10;
 constexpr double above_rounding = 10.0;
 
-// Whether two histories agree to rounding at all times that they have in common; nothing where these are
-// few. The first row is the start of both.
-std::optional<bool> agree(const Observation& one, const Observation& other,
-                          const model::Kinematics& scale) {
+// At how many times two histories agree to rounding; nothing where they do not at one that they have in
+// common. The first row is the start of both.
+std::optional<std::size_t> agree(const Observation& one, const Observation& other,
+                                 const model::Kinematics& scale) {
   const auto &a = one.sample, &b = other.sample;
   const auto dof = std::size_t(a.dof);
   const double same_time = 1e-9 * std::min(one.facts.spacing, other.facts.spacing);
@@ -41,12 +41,11 @@ std::optional<bool> agree(const Observation& one, const Observation& other,
     }
     ++common, ++i, ++j;
   }
-  if (common < least_common_rows) return {};
-  return true;
+  return common;
 }
 
-// The coarsest and the finest history agree with all others that have enough times in common with them,
-// and each with one at least: what agrees there agrees between.
+// The coarsest and the finest history agree with all others, at enough times in all: what agrees there
+// agrees between. Grids of other steps may have only their end in common.
 bool step_has_no_effect(const DiagnosisInput& question) {
   const auto& files = question.histories;
   const auto scale = question.motion.peak();
@@ -56,14 +55,14 @@ bool step_has_no_effect(const DiagnosisInput& question) {
   if (!(ErrorCurve(finest, question.motion, scale.u).largest() > above_rounding * floor))
     return false;
   for (const auto* end : {&files.front(), &finest}) {
-    bool is_told = false;
+    std::size_t common = 0;
     for (const auto& other : files) {
       if (&other == end) continue;
       const auto same = agree(*end, other, scale);
-      if (same == false) return false;
-      is_told = is_told || same.has_value();
+      if (!same) return false;
+      common += *same;
     }
-    if (!is_told) return false;
+    if (common < least_common_rows) return false;
   }
   return true;
 }
