@@ -26,7 +26,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double most_bytes = 2e9;
-constexpr Index most_kept = 64;  // columns of errors of a flight that is over
+constexpr Index most_kept = 64;      // columns of errors of a flight that is over
 constexpr double most_error = 0.01;  // of displacements, over the largest
 
 // Symmetric; a product such as S' K S leaves 1e-12 of the largest eigenvalue.
