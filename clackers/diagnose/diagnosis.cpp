@@ -157,7 +157,7 @@ constexpr auto all_causes = std::to_array<Cause>({
     {"impact-at-step-end", Group::impacts, Effect::open, "steps",
      "mean delay of impacts",
      "Impacts are applied at the {text} of the step in which they happen[, or {steps} steps later]",
-     "locate the impact within the step; the order is one otherwise."},
+     "locate the impact within the step; the order is one otherwise.", true},
     {"impact-interpolated", Group::impacts, Effect::open, "1",
      "order of the impact times",
      "Impacts are located with order {value}, the flights between them with more",
@@ -169,7 +169,7 @@ constexpr auto all_causes = std::to_array<Cause>({
     {"impact-tolerance", Group::impacts, Effect::open, "s",
      "largest delay of an impact",
      "Impacts are located to {value} s, whatever the step",
-     "tighten the tolerance of the search for impacts."},
+     "tighten the tolerance of the search for impacts.", true},
     {"acceleration-not-renewed", Group::impacts, Effect::open, "1",
      "part of the step that the old acceleration acts for",
      "The acceleration {text} is not that of the state there: {value} of a step goes on with another one",
@@ -209,23 +209,23 @@ constexpr auto all_causes = std::to_array<Cause>({
     {"commensurate-steps", Group::ladder, Effect::method, "1",
      "part of the steps",
      "Small errors of some steps[, {share_percent} of all,] are coincidence: the steps divide the time between impacts[, {time} s]",
-     "use steps that do not divide it."},
+     "use steps that do not divide it.", true},
     {"numerical-damping", Group::method, Effect::method, "1",
      "part of the energy that is lost at the finest step",
      "The method takes {percent} of the energy[ at h = {step} s], less with smaller steps[ (order {order})]",
-     "the error is the method's, not the model's; use smaller steps, or a method without dissipation."},
+     "the error is the method's, not the model's; use smaller steps, or a method without dissipation.", true},
     {"period-error", Group::method, Effect::method, "%",
      "relative change of the frequency at the finest step",
      "The motion {runs}[ at h = {step} s], less with smaller steps[ (order {order})]",
-     "the error is the method's, not the model's; use smaller steps."},
+     "the error is the method's, not the model's; use smaller steps.", true},
     {"force-step", Group::other, Effect::method, "1",
      "acceleration times h^2 in the displacement of a step; 1 in symplectic Euler, 0 in explicit Euler",
      "A step h moves masses by {value_pm} h^2 times their acceleration, where 1 keeps the energy bounded: it grows at every step size",
-     "compute forces in each internal step, use one such step, or springs of the engine itself."},
+     "compute forces in each internal step, use one such step, or springs of the engine itself.", true},
     {"unstable-coarse-steps", Group::other, Effect::method, "s",
      "largest stable step",
      "Runs[ with h = {step} s and more] fail or grow without bound[; h = {value} s does not]",
-     "start from a smaller step."},
+     "start from a smaller step.", true},
 });
 // clang-format on
 
@@ -247,10 +247,8 @@ const Cause* find_cause(std::string_view code) {
 bool is_other_system(const Diagnosis& found) { return surely_has(found, Effect::other_system); }
 
 bool is_of_right_methods(const Diagnosis& found) {
-  static constexpr auto codes = std::to_array<Code>(
-      {"impact-at-step-end", "impact-tolerance", "period-error", "numerical-damping", "force-step",
-       "unstable-coarse-steps", "commensurate-steps"});
-  return std::ranges::find(codes, found.code, &Code::name) != codes.end();
+  const auto* cause = find_cause(found.code);
+  return cause != nullptr && cause->is_of_right_methods;
 }
 
 bool is_noise(const Diagnosis& found) { return surely_has(found, Effect::noise); }

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "clackers/base/codes.hpp"
@@ -61,6 +62,15 @@ struct Diagnosis {
   }
 };
 
+/// A diagnosis with its value; the rest is to be filled in.
+inline Diagnosis diagnosis_of(Code code, double value, std::string unit) {
+  Diagnosis found;
+  found.code = code.name();
+  found.value = value;
+  found.unit = std::move(unit);
+  return found;
+}
+
 /// Below it a cause is not reported.
 inline constexpr double least_confidence = 0.5;
 
@@ -85,6 +95,8 @@ struct Cause {
   std::string_view unit,
       value;  ///< of the value, and what it is; empty for a cause without a number
   std::string_view what, cure;
+  /// Right methods have it as well, such as those of first order: it leads to no other motion.
+  bool is_of_right_methods = false;
 };
 
 /// Every cause that is looked for: of files, time, the system, impacts, and what refinement shows.
@@ -92,7 +104,7 @@ std::span<const Cause> causes();
 /// The row of a code, or nullptr for one that is no cause.
 const Cause* find_cause(std::string_view code);
 
-/// What it means and what to do about it, whatever was found: what `clackers explain` prints.
+/// What it means and what to do about it, as `clackers explain` prints it.
 std::string meaning_of(const Cause& cause);
 
 /// What was found and what to do about it, in one sentence.
@@ -107,7 +119,7 @@ inline constexpr double sure = 0.9;
 /// Whether a cause that is sure means another system than the case.
 bool is_other_system(const Diagnosis& found);
 
-/// Whether right methods have it as well, such as those of first order: it leads to no other motion.
+/// Cause::is_of_right_methods of the cause that was found.
 bool is_of_right_methods(const Diagnosis& found);
 
 /// Whether a cause that is sure means that a floor is noise, not another motion.

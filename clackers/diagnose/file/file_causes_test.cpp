@@ -170,7 +170,7 @@ TEST(FileCauses, NamesVelocitiesThatStayAwayFromTheTrueOnes) {
   const auto offset = causes_of([](double v, double) { return v + 1e-3; }, {0.04, 0.02, 0.01});
   ASSERT_EQ(codes(offset), "velocities-differ");
   EXPECT_TRUE(std::isnan(offset[0].value));
-  // What falls with the step, or is there at one step alone, is no other velocity.
+  // What falls with the step, or is seen at only one step, is no other velocity.
   EXPECT_EQ(codes(causes_of([](double v, double h) { return v + h; }, {0.04, 0.02, 0.01})), "");
   EXPECT_EQ(codes(causes_of([](double v, double) { return 0.9 * v; }, {0.01})), "");
 }

@@ -139,8 +139,7 @@ std::optional<Diagnosis> of_no_order(const std::vector<FileSample>& files) {
   if (!(coarsest.history().facts.step > other_step * finest.history().facts.step) ||
       std::abs(coarsest.distance().v / v - 1.0) > same)
     return {};
-  Diagnosis cause;
-  cause.code = "velocities-differ";
+  auto cause = diagnosis_of(Code("velocities-differ"), NAN, "");
   cause.confidence = 0.95;
   cause.evidence = {{"files", double(near.size())}};
   const auto& rows = finest.rows();

@@ -1,22 +1,11 @@
 #pragma once
 
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "clackers/diagnose/causes.hpp"
 
 // The parts of ladder_causes().
 namespace clackers::diagnose {
-
-/// A diagnosis with its value; the rest is to be filled in.
-inline Diagnosis diagnosis_of(Code code, double value, std::string unit) {
-  Diagnosis found;
-  found.code = code.name();
-  found.value = value;
-  found.unit = std::move(unit);
-  return found;
-}
 
 /// impact-at-step-end, impact-interpolated, impact-tolerance, contact-compliant: how the impacts of
 /// all histories were located.

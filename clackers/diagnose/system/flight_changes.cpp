@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clackers/diagnose/ladder/ladder_families.hpp"
 #include "clackers/model/harmonic_load.hpp"
 
 namespace clackers::diagnose {

@@ -144,16 +144,16 @@ std::optional<Fitted> best_of(const FlightFits& fits, const std::vector<FlightCh
   };
   for (std::size_t i = 0; i < changes.size(); ++i) tried.push_back(fits.of({i}));
   const auto one = lead(least_gain);
-  const double alone = tried.empty() ? 0.0 : tried.front().gain;
+  const double gain_of_one = tried.empty() ? 0.0 : tried.front().gain;
   tried.clear();
   for (std::size_t i = 0; i < changes.size(); ++i)
     for (std::size_t j = i + 1; j < changes.size(); ++j)
       if (changes[i].cause.code != changes[j].cause.code || !changes[j].is_of_all)
         tried.push_back(fits.of({i, j}));
   // Two changes always leave less than one, and what the method's own error leaves is no change.
-  constexpr double worth_two = 3.0, enough_alone = 300.0;
+  constexpr double worth_two = 3.0, enough = 300.0;
   const auto two = lead(least_gain_of_two);
-  return two && two->gain > worth_two * alone && alone < enough_alone ? two : one;
+  return two && two->gain > worth_two * gain_of_one && gain_of_one < enough ? two : one;
 }
 
 }  // namespace clackers::diagnose

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "clackers/diagnose/ladder/impact_location.hpp"
-#include "clackers/diagnose/ladder/ladder_families.hpp"
 #include "clackers/diagnose/system/measured_causes.hpp"
 #include "clackers/measure/errors/mechanics.hpp"
 #include "clackers/numerics/line_fit.hpp"

@@ -13,7 +13,6 @@
 #include "clackers/base/number.hpp"
 #include "clackers/diagnose/file/file_sample.hpp"
 #include "clackers/diagnose/file/reading.hpp"
-#include "clackers/diagnose/ladder/ladder_families.hpp"
 #include "clackers/diagnose/system/measured_causes.hpp"
 #include "clackers/diagnose/system/trials.hpp"
 #include "clackers/measure/errors/mechanics.hpp"

@@ -3,7 +3,6 @@
 
 #include "clackers/diagnose/file/file_sample.hpp"
 #include "clackers/diagnose/file/reading.hpp"
-#include "clackers/diagnose/ladder/ladder_families.hpp"
 #include "clackers/diagnose/system/fit_rows.hpp"
 #include "clackers/diagnose/system/measured_causes.hpp"
 

@@ -53,7 +53,7 @@ model::ImpactProblem<> random_springs(Box& box) {
   return problem;
 }
 
-// Impacts enlarge errors until doubles would not tell where the next one is; what is carried in double-double does not show it.
+// Impacts enlarge errors until doubles no longer show where the next one is; what is carried in double-double does not show it.
 TEST(FlightStates, OfManyMassesAreTheSimulationToARounding) {
   Box box(71);
   int members = 0, impacts = 0, held = 0;

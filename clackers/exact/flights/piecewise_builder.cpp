@@ -253,7 +253,7 @@ PiecewiseMotion::PiecewiseMotion(const model::ImpactProblem<>& problem, std::str
             "redundant-contacts");
     }
   Builder(problem, {}, 100000, *this).build();
-  // Envelopes add up parts that may cancel; loads alone come no farther than they push free masses.
+  // Envelopes add up parts that may cancel; loads push free masses no farther than this.
   VectorXd pushed = VectorXd::Zero(dof());
   for (const auto& force : regimes_[0].forces()) pushed += force.acceleration.cwiseAbs();
   const double bound = error_bound(end_).u.maxCoeff(),
